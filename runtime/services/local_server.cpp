@@ -173,8 +173,8 @@ void LocalServer::serve() {
 bool LocalServer::has_room(const Connection& connection) { return connection.out.size() - connection.sent < kMostOut; }
 
 bool LocalServer::late(const Connection& connection, std::int64_t now) const {
-  const bool frame = connection.in.waits() && connection.outstanding == 0 && has_room(connection) && now - connection.read_ns > kPatienceNs;
-  const bool reader = connection.sent < connection.out.size() && now - connection.written_ns > kPatienceNs;
+  const bool frame = connection.in.waits() && connection.outstanding == 0 && has_room(connection) && now - connection.read_ns > patience_ns_;
+  const bool reader = connection.sent < connection.out.size() && now - connection.written_ns > patience_ns_;
   return frame || reader;
 }
 

@@ -82,6 +82,8 @@ class LocalServer {
 
   // Who is asked for the credentials of peers in place of the kernel. Before start().
   void set_witness(Witness witness) { witness_ = std::move(witness); }
+  // How long a client may keep its answers unread, or a frame unended, in place of kPatienceNs. Before start().
+  void set_patience(std::int64_t ns) { patience_ns_ = ns; }
   // Makes the socket. A path at which a living process listens is refused. False with a sentence in *error.
   bool open(const std::string& path, std::string* error);
   // Starts the threads. False with a sentence in *error.
@@ -163,6 +165,7 @@ class LocalServer {
   Services& services_;
   const std::string control_;
   const Judge judge_;
+  std::int64_t patience_ns_ = kPatienceNs;
   Witness witness_ = credentials_of;
   std::string path_;
   int listen_ = -1, wake_ = -1;

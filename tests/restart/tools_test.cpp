@@ -114,6 +114,49 @@ class RestartTools : public Restart {
     ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
   }
 
+  // Cuts with two tools whose lengths act, behind each of which the next one is called.
+  std::string part_with_lengths() {
+    std::string text = "G90 G54 G21 F3000.\nG0 X2. Y3.\n";  // by its line a place counts from where the axes stand
+    for (unsigned tool = 1; tool <= 2; ++tool) {
+      const std::string number = std::to_string(tool);
+      text += "T" + number + " M6\nS900 M3\nG43 H" + number + " Z15.\n";
+      for (unsigned cut = 3 + below(4); cut > 0; --cut) {
+        const std::string x = std::to_string(below(40)), y = std::to_string(below(40));
+        if (below(4) == 0) text += "G91 G1 X3. Z-1.\nG90\n";
+        else if (below(3) == 0) text += "G2 X" + x + ".3 Y" + y + ".2 R60.\n";
+        else text += "G1 X" + x + ". Y" + y + ". Z-" + std::to_string(below(9)) + ".\n";
+      }
+      text += "G0 Z20.\n";
+    }
+    return text + "G49 Z30.\nM5\nM30\n";
+  }
+  void begin_part(const std::string& text, double length) {
+    ASSERT_NO_FATAL_FAILURE(build("[tool_offsets]\n1 = { length = " + std::to_string(length) + " }\n2 = { length = 22.0 }\n"));
+    ASSERT_NO_FATAL_FAILURE(select(text));
+    ASSERT_EQ(start(), Answer::kDone);
+  }
+  // Blocks of MDI where no program is interrupted.
+  void mdi_alone(const std::string& blocks) {
+    ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+    ASSERT_EQ(runtime->load_mdi(blocks), Answer::kDone) << runtime->explain(Answer::kRefusedByControl);
+    const std::uint64_t runs = runtime->info().system[0].runs;
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(until([&] { return out().state == NC_STATE_IDLE && runtime->info().system[0].runs != runs; }, 20000));
+    steps(3);
+  }
+  void jog_away(unsigned axis, double velocity, int scans) {
+    Command jog;
+    jog.kind = CommandKind::kJog;
+    jog.axis = static_cast<std::uint8_t>(axis);
+    jog.value = velocity;
+    for (int n = 0; n < scans; n += 50) {
+      ASSERT_EQ(runtime->execute(jog), Answer::kDone);
+      steps(50);
+    }
+    ASSERT_NO_FATAL_FAILURE(let_go(axis));
+    ASSERT_TRUE(until([&] { return out().distance_zero; }, 2000));
+  }
+
   std::mt19937_64 random;
   std::map<std::uint32_t, unsigned> tool_of_, codes_of_;  // by line
   std::vector<std::string> given_;
@@ -178,6 +221,54 @@ TEST_F(RestartTools, NoCodeIsLostAndNothingIsCutWithTheWrongTool) {
     EXPECT_LE(before.size() + given_.size(), all.size() + 2) << "codes of blocks that were done are given out once more";
   }
   std::printf("%llu begun inside, %llu behind a power failure, %llu scans cut\n", static_cast<unsigned long long>(inside_), static_cast<unsigned long long>(cuts_), static_cast<unsigned long long>(cut_));
+  EXPECT_GT(inside_, seeds / 2);
+}
+
+// The whole of it as an operator does it: hold in the cut, out of the part by hand, reset, another tool of the same number with another length, back to the block and on. What is cut then is what the
+// whole program cuts with the new length. The hold is behind the first block that leads Z: an axis that no block has named yet is where it stands.
+TEST_F(RestartTools, BehindABrokenToolThePartIsThatOfTheNewLength) {
+  const std::uint64_t first = nc::test::wish("NC_FIRST_SEED", 1), seeds = nc::test::seeds(6, 2);
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    random.seed(seed);
+    const std::string text = part_with_lengths();
+    SCOPED_TRACE(text);
+    const double before = 20, after = before + below(2000) / 1000.0 - 1;
+    ASSERT_NO_FATAL_FAILURE(begin_part(text, after));
+    ASSERT_TRUE(to_end());
+    const std::vector<nc_axes> whole = machine->path;
+    ASSERT_NO_FATAL_FAILURE(begin_part(text, before));
+    ASSERT_TRUE(until([&] { return out().source.line == 6; }, 20000));
+    steps(static_cast<int>(below(2500)));
+    const std::uint32_t line = out().source.line;
+    ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone);
+    ASSERT_TRUE(until([&] { return out().distance_zero && out().state != NC_STATE_RUNNING; }, 5000));
+    if (out().state == NC_STATE_IDLE) continue;
+    ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+    ASSERT_NO_FATAL_FAILURE(jog_away(2, 40, 500));
+    ASSERT_NO_FATAL_FAILURE(jog_away(below(2), below(2) == 0 ? 30 : -30, 300));
+    ASSERT_NO_FATAL_FAILURE(reset());
+    char length[40];
+    std::snprintf(length, sizeof length, "G10 L10 P1 R%.3f\n", after);
+    ASSERT_NO_FATAL_FAILURE(mdi_alone(length));
+    if (below(2) == 0) {
+      ASSERT_NO_FATAL_FAILURE(mdi_alone("T1 M6\n"));
+    }
+    ASSERT_NO_FATAL_FAILURE(reset());
+    ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+    const Answer found = below(2) == 0 ? find(RestartBy::kLastStop) : find(RestartBy::kLine, line);
+    ASSERT_EQ(found, Answer::kDone) << restart().text;
+    ASSERT_NO_FATAL_FAILURE(come_to_place());
+    EXPECT_EQ(start(), Answer::kRestartOpen) << "the spindle stands";
+    ASSERT_NO_FATAL_FAILURE(recover());
+    ASSERT_NO_FATAL_FAILURE(lead_back());
+    machine->path.clear();
+    ASSERT_EQ(start(), Answer::kDone) << restart().text;
+    ++inside_;
+    ASSERT_TRUE(to_end()) << restart().text;
+    EXPECT_LE(most_beside(whole, machine->path), kChord);
+    for (unsigned a = 0; a < 3; ++a) EXPECT_NEAR(out().command.v[a], whole.back().v[a], 1e-6) << a;
+  }
   EXPECT_GT(inside_, seeds / 2);
 }
 

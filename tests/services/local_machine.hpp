@@ -136,6 +136,8 @@ class LocalMachine : public testing::Test {
   virtual bool has_commands() { return false; }
   // Whether programs are checked; most tests start those that they have just written.
   virtual std::string check_text() { return "check = \"off\"\n"; }
+  // How long the server waits for a client that does not read.
+  virtual std::int64_t patience_ns() { return rt::services::LocalServer::kPatienceNs; }
   void start() {
     std::string text = machine_text();
     text.replace(text.find("name = \"test\"\n"), 0, "programs = \"programs\"\nvariables = \"variables\"\noffsets = \"offsets\"\n");
@@ -184,6 +186,7 @@ class LocalMachine : public testing::Test {
       if (user_) peer->user = *user_;
       return known;
     });
+    server_->set_patience(patience_ns());
     ASSERT_TRUE(server_->open(path_, &error)) << error;
     share_->desk()->set_local([this](const rt::share::Ack& ack) { server_->settled(ack); });
     ASSERT_TRUE(runtime_->start(&error)) << error;
