@@ -210,7 +210,7 @@ TEST(Hx, SystemVariablesAreThoseOfTheManual) {  // 14.2.3
   EXPECT_EQ(run.var(109), 7);
   EXPECT_EQ(run.var(111), 55);
   for (const char* text : {"#8000=1", "#4083=1", "#6718=1"}) EXPECT_EQ(alarm_of(std::string(text) + "\nM30"), "NC-VARIABLE") << text;
-  for (const char* text : {"#100=#1600", "#100=#2431", "#100=#4018", "#100=#5001"}) EXPECT_EQ(alarm_of(std::string(text) + "\nM30"), "NC-VARIABLE") << text;
+  for (const char* text : {"#100=#1600", "#100=#2431", "#100=#4018", "#100=#5005"}) EXPECT_EQ(alarm_of(std::string(text) + "\nM30"), "NC-VARIABLE") << text;
 }
 
 TEST(Hx, TheInterfaceHasItsNumbers) {  // 14.2.3 (1), (2)
