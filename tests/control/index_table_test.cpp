@@ -22,7 +22,7 @@ class TableMachine {
   explicit TableMachine(Bench& bench, const std::string& text) : drive(bench, text) {}
 
   Drive drive;
-  unsigned slow_feeder = 1;     ///< the feeder is called once in so many cycles
+  unsigned slow_feeder = 1;     ///< the feeder is called once in so many cycles, with the work of all of them
   unsigned clamp_cycles = kClampCycles;
   uint32_t broken = 0;          ///< axes that are never unclamped
   std::string diary;
@@ -39,7 +39,7 @@ class TableMachine {
     const uint32_t unclamped_before = in.unclamped;
     in.unclamped = unclamped_ & ~broken;
     const nc_outputs before = drive.out;
-    drive.step(drive.cycle % slow_feeder == 0 ? 100 : 0);
+    drive.step(drive.cycle % slow_feeder == 0 ? 100 * slow_feeder : 0);
     write(before, unclamped_before);
   }
   /// Steps until `done` returns true; false if it does not within `most` cycles.

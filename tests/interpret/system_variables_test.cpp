@@ -326,7 +326,8 @@ TEST(SystemVariables, ParametersByNumber) {  // 13.5.5 (10.16)
   EXPECT_EQ(machine.var(102), 0);
   EXPECT_EQ(write_alarm(100000, "0"), "P39");
   EXPECT_EQ(write_alarm(100000, "99999"), "P39");  // (1): one that does not exist
-  EXPECT_EQ(write_alarm(100000, "1999"), "P39");
+  EXPECT_EQ(write_alarm(100000, "1000"), "P39");
+  EXPECT_EQ(bench.run("#100000=1999\n#100=#100010\nM30").var(100), 0);
   EXPECT_EQ(write_alarm(100001, "5"), "P39");
   EXPECT_EQ(write_alarm(100002, "4"), "P39");
 }

@@ -128,7 +128,7 @@ const std::map<nc_dialect, std::vector<Row>> kRows = {
          {"longest_counter_ms", 49, "#3001=50"},
          {"first_year", 2027, "#3011=20261128"},
          {"last_year", 2025, "#3011=20261128"},
-         {"largest_parameter", 49, "#100000=50", {}, "XYZ", Condition::no_such_data},
+         {"largest_parameter", 1999, "#100000=2000", {}, "XYZ", Condition::no_such_data},
          {"largest_device", 49, "#100101=50", {}, "XYZ", Condition::no_such_data},
          {"largest_life_number", 4, "#60000=5"},
          {"largest_life_number", 4, "G10 L3\nP5 L1"},

@@ -210,7 +210,9 @@ TEST_F(GatewayCommands, AJogInFrontOfAHoldIsTakenBack) {
   ASSERT_TRUE(jog(20));
   const std::uint64_t second = sent_;
   let_go();
-  EXPECT_EQ(text_of(answer_to(first).text), "a feed hold has taken it back");
+  const Ack taken_back = answer_to(first);  // while the hold itself is still on, its sentence is that of a feed hold that is on
+  EXPECT_EQ(taken_back.state, static_cast<std::uint32_t>(AckState::kRejected));
+  EXPECT_EQ(taken_back.refusal, static_cast<std::uint32_t>(rt::RefusalCause::kFeedHold));
   EXPECT_EQ(answer_to(second).state, static_cast<std::uint32_t>(AckState::kRejected)) << "the button is on since before the hold";
   EXPECT_EQ(runtime_->snapshot().system[0].nc.command.v[0], 0);
   ASSERT_TRUE(jog(0));

@@ -72,6 +72,7 @@ struct FamilyParameters {
   Table<ParameterName> names = {};
   Table<FixedParameter> fixed = {};
   Table<MachineParameter> machine = {};
+  NumberRange there = {1, 0};                  ///< numbers that parameters of the maker can have; one that is not used here reads 0. Empty = only those that are used
   Table<NumberRange> of_axes = {};             ///< numbers that a program sets for one axis (parameter input), also numbers without a row
   NumberRange locked_programs[2] = {{1, 0}, {1, 0}};  ///< numbers of the programs that Parameter::edit_lock_b and edit_lock_c protect; empty = none
   double arc_tolerance_mm = 0;            ///< tolerance while Parameter::arc_tolerance is not set,

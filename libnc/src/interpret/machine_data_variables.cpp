@@ -131,9 +131,11 @@ bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, do
   return false;
 }
 
-/// M700 13.5.5 (10.16 (1)): there are the parameters that the control uses and those that somebody has set for this machine.
+/// M700 13.5.5 (10.16 (1)): there are the parameters that the control uses, those that somebody has set for this machine, and those among the maker's numbers.
 bool parameter_exists(const Interpreter& in, uint32_t number) {
   double value = 0;
+  const NumberRange& there = in.dialect->parameters->there;
+  if (number >= there.first && number <= there.last) return true;
   if (machine_parameter(in, number, 0, &value) || find_parameter(*in.dialect, ParameterKey{number, 0, -1}) != nullptr) return true;
   const ParameterId id = ParameterId::of_number(number);
   for (int axis = -1; axis < static_cast<int>(in.axis_count); ++axis)

@@ -235,6 +235,7 @@ constinit const FamilyParameters kParameters = {
     .places = &kPlaces,
     .names = table(kNames),
     .machine = table(kMachine),
+    .there = {1001, 19999},
     .of_axes = table(kOfAxes),
     .locked_programs = {{8000, 9999}, {9000, 9999}},  // 13.3, #8105 edit lock B, #1121 edit lock C
     .arc_tolerance_mm = 0.1,      // 6.4, #1084 RadErr
