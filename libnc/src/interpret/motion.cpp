@@ -651,7 +651,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (straight) {
     // There is no circle: the axes go along a line, also those outside of the plane.
     LinearStyle style;
-    style.feed_mm_min = in.state.modal.feed * feed_unit(in, frame.start, frame.end);
+    style.feed_mm_min = feed_for(in, frame.start, frame.end);
     style.special_feed = special_feed(in);
     style.exact_stop = asks_exact_stop(in);
     move_linear(in, target, commanded, style);

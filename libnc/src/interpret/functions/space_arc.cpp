@@ -87,7 +87,7 @@ void emit_half(BlockContext& in, const AxisVec& to, const SpaceArc* arc) {
   const uint32_t all = (1u << in.axis_count) - 1;
   if (arc == nullptr) {
     LinearStyle style;
-    style.feed_mm_min = in.state.modal.feed * feed_unit(in, in.position(), to);
+    style.feed_mm_min = feed_for(in, in.position(), to);
     style.special_feed = special_feed(in);
     style.exact_stop = asks_exact_stop(in);
     move_linear(in, to, all, style);

@@ -133,7 +133,7 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
   s.circle.sweep = (ccw ? 1 : -1) * (s.delta + whole * kTurn);
   if (s.circle.sweep == 0) {  // there is no angle, so a line leads to the end
     LinearStyle style;
-    style.feed_mm_min = in.state.modal.feed * feed_unit(in, frame.start, frame.end);
+    style.feed_mm_min = feed_for(in, frame.start, frame.end);
     style.special_feed = special_feed(in);
     move_linear(in, frame.end, commanded, style);
     return Execution::done;
