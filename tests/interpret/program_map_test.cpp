@@ -281,7 +281,7 @@ TEST(ParameterInput, WhatIsNotPossibleIsP421) {
   EXPECT_EQ(m700("G10 L70\nP1078\nG11\nM30").alarm, "P421");
   EXPECT_EQ(m700("G10 L70\nP1078 H82\nG11\nM30").alarm, "P421");
   EXPECT_EQ(m700("G10 L70\nP8204 A4 D1\nG11\nM30").alarm, "P421");
-  for (const char* number : {"P0 D1", "P1.5 D1", "P100000 D1", "P-1 D1", "P8204 A1.5 D1", "P8204 S1.5 D1", "P6401 H71.5", "P6401 H-1"}) {
+  for (const char* number : {"P0 D1", "P1.5 D1", "P100000 D1", "P99999 D1", "P1000 D1", "P-1 D1", "P8204 A1.5 D1", "P8204 S1.5 D1", "P6401 H71.5", "P6401 H-1"}) {
     const Outcome run = m700("G10 L70\n" + std::string(number) + "\nG11\nM30");
     EXPECT_EQ(run.alarm, "P421") << number;
     EXPECT_EQ(run.alarm_line, 2u) << number;

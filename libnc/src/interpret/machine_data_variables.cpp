@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "frame/tool_life.hpp"
+#include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/system_variable_table.hpp"
@@ -131,12 +132,14 @@ bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, do
   return false;
 }
 
-/// M700 13.5.5 (10.16 (1)): there are the parameters that the control uses, those that somebody has set for this machine, and those among the maker's numbers.
-bool parameter_exists(const Interpreter& in, uint32_t number) {
+/// M700 13.5.5 (10.16 (1)), 13.11: there are the parameters among the maker's numbers, those that the control uses, and those that somebody has set for this machine.
+bool parameter_exists(const InForce& in, uint32_t number) {
   double value = 0;
   const NumberRange& there = in.dialect->parameters->there;
   if (number >= there.first && number <= there.last) return true;
-  if (machine_parameter(in, number, 0, &value) || find_parameter(*in.dialect, ParameterKey{number, 0, -1}) != nullptr) return true;
+  if (find_parameter(*in.dialect, ParameterKey{number, 0, -1}) != nullptr) return true;
+  for (const MachineParameter& row : in.dialect->parameters->machine)
+    if (row.number == number) return true;
   const ParameterId id = ParameterId::of_number(number);
   for (int axis = -1; axis < static_cast<int>(in.axis_count); ++axis)
     if (in.parameters.get(id, -1, axis, &value) || in.parameters.text(id, axis) != nullptr) return true;

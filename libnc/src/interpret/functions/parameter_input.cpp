@@ -18,9 +18,6 @@ Execution refuse(BlockInHand& in, Role word) {
 /// The number of a word that has to be whole: a part of one is an illegal number (appendix 1, P421).
 bool number_of(const BlockInHand& in, Role word, uint32_t* number) { return whole_number(in.words.get(word), number) && std::fabs(in.words.get(word) - *number) < 1e-6; }
 
-/// The numbers that parameters can have; which of them the machine has not is not known here.
-bool is_parameter_number(const BlockInHand& in, uint32_t number) { return number >= 1 && number <= in.dialect->rules.range.largest_parameter; }
-
 /// D rounded to the setting unit (note 5).
 double data_of(double value, double unit) {
   const double steps = std::nearbyint(std::fabs(value) / unit), rounded = steps / std::nearbyint(1 / unit);
@@ -99,7 +96,7 @@ Execution parameter_block(BlockInHand& in) {
   }
   uint32_t number = 0, system = 0, axis = 1;
   if ((w.present & ~in.set_of({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !number_of(in, Role::parameter_number, &number)) return refuse(in, Role::parameter_number);
-  if (!is_parameter_number(in, number) || !in_sequence(in)) return refuse(in, Role::parameter_number);
+  if (!parameter_exists(in, number) || !in_sequence(in)) return refuse(in, Role::parameter_number);
   if (w.has(Role::parameter_system) && (!number_of(in, Role::parameter_system, &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
   if (w.has(Role::parameter_axis) && (!number_of(in, Role::parameter_axis, &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);
   // Which part system has which data may depend on it: what comes before is executed as it was, and what another part system has written is known.
