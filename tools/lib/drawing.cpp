@@ -2,8 +2,6 @@
 // See drawing.hpp.
 #include "tools/lib/drawing.hpp"
 
-#include <cairo-svg.h>
-
 #include <cmath>
 #include <cstdio>
 
@@ -72,6 +70,7 @@ void put_text(cairo_t* c, double x, double y, const std::string& text, double si
 
 bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)>& paint,
                    std::string* error) {
+  if (!load_cairo(error)) return false;
   WholeFile whole;
   std::string why;
   if (!whole.open(target.path, &why)) {

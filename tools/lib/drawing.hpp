@@ -3,11 +3,11 @@
 // cairo.
 #pragma once
 
-#include <cairo.h>
-
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "tools/lib/cairo_library.hpp"
 
 namespace nc::tools {
 

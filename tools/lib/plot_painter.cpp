@@ -4,8 +4,6 @@
 // Isometric projection from (+X, -Y, +Z): the unit vectors to the right and up on the page are (1, 1, 0)/sqrt 2 and
 // (-1, 1, 2)/sqrt 6. So the three axes are shortened by the same factor, sqrt(2/3), and one scale bar is right for all
 // of them.
-#include <cairo.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,8 +2,6 @@
 // Draws a Relief shaded by light from one side. Private header: needs cairo.
 #pragma once
 
-#include <cairo.h>
-
 #include <functional>
 
 #include "tools/lib/drawing.hpp"

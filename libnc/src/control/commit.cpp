@@ -80,7 +80,7 @@ void Commit::create(const CommitConfig& config, Arena& arena) {
     any_limit_ = any_limit_ || config.system->axis[i].soft_limited;
   }
   if (!config.rotary_makes_length) length_rotary_ = rotary_;
-  marks_ = arena.make<MarkPoint>(config.marks);
+  marks_ = arena.make_blank<MarkPoint>(config.marks);
   resumes_ = arena.make<Stages::Resume>(config.marks);
   constexpr uint32_t kMostShapes = 256;
   shape_mask_ = (config.records < kMostShapes ? config.records : kMostShapes) - 1;

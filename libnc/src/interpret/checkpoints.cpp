@@ -25,7 +25,7 @@ void Checkpoints::create(unsigned count, Arena& arena) {
   capacity_ = count * kOrdinary;
   if (capacity_ < 16 * sizeof(State)) capacity_ = 16 * sizeof(State);
   entries_ = arena.make<Entry>(count);
-  bytes_ = arena.make<char>(capacity_);
+  bytes_ = arena.make_blank<char>(capacity_);
   mask_ = count - 1;
 }
 

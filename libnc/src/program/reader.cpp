@@ -160,7 +160,7 @@ void BlockReader::create(ProgramStore* store, const LexRules* rules, unsigned wi
   if (slots_ < kWays) slots_ = 0;
   first_time_ = arena.make<Block>();
   searched_ = arena.make<Block>();
-  cache_ = arena.make<Block>(slots_);
+  cache_ = arena.make_blank<Block>(slots_);  // a slot without a tag is never read
   tags_ = arena.make<Tag>(slots_);
   indexes_ = arena.make<Index>(kIndexes);
   jumps_ = arena.make<Jump>(kJumps);
