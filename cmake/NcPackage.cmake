@@ -152,6 +152,7 @@ set(CPACK_DEBIAN_NC_TOOLS_PACKAGE_NAME nc-tools)
 set(CPACK_DEBIAN_NC_TOOLS_PACKAGE_SECTION misc)
 set(CPACK_NC_MULTIARCH_nc-tools foreign)
 set(CPACK_DEBIAN_NC_TOOLS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_NC_TOOLS_PACKAGE_RECOMMENDS libcairo2)    # loaded when a picture is drawn
 set(CPACK_DEBIAN_NC_TOOLS_DESCRIPTION "open CNC control - tools for NC programs
 ncsim checks, traces, times and plots NC programs without a machine.${nc_manual_mon}")
 include(CPack)

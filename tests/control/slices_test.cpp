@@ -115,5 +115,26 @@ TEST(Slices, ChangeNothingOfProgramsOfAllKinds) {
   for (uint32_t seed = 1; seed <= seeds(12, 3); ++seed) ASSERT_NO_FATAL_FAILURE(compare(seed, ProgramMaker(seed + 9000, false).make()));
 }
 
+/// A feeder that gets few slices, beside an operator who holds in ever the same rhythm: what is under way for axes that rest goes on through the holds. It was
+/// begun anew with each of them, and where a law took more than the slices between two holds nothing ever moved.
+TEST(Slices, HoldsDoNotKeepAProgramFromBeginning) {
+  constexpr unsigned kHold = 100;  // cycles that it stays on, and off
+  RandomProgram program;
+  program.main = lines(3);
+  Bench bench(NC_DIALECT_M700, optimal(256));
+  set_up(bench, program);
+  Drive drive(bench, program.main);
+  unsigned moving = 0;
+  for (unsigned n = 0; n < 400 * kHold && !drive.ended; ++n) {
+    drive.in.cycle_start = n % kHold == 2;
+    drive.in.feed_hold = n / kHold % 2 == 1;
+    if (n % 8 == 0) nc_feed(bench.control(), 1);
+    const nc_axes before = drive.out.command;
+    drive.step(0);
+    if (std::memcmp(&before, &drive.out.command, sizeof before) != 0) ++moving;
+  }
+  EXPECT_TRUE(drive.ended) << "moved in " << moving << " cycles";
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -147,9 +147,10 @@ bool OptimalPlanner::answered(const Following& f) {
 // ---- rounds
 // ------------------------------------------------------------------------------------------------------------------------
 
-/// What asks for another plan is as it was when the newest round began.
+/// What asks for another plan is as it was when the newest round began. A hold asks nothing of a scan that rests behind its whole chain: it does not begin what
+/// is offered to it while the hold stays on, and were the law that is under way begun anew, a hold now and then would keep a slow feeder from ever ending one.
 bool OptimalPlanner::heard(const Following& f) const {
-  return f.brake == heard_.brake && (turn_over_ || (f.block_rests == heard_.block_rests && same(f.scale, heard_.scale)));
+  return (f.brake == heard_.brake || fresh_ || !moving(f)) && (turn_over_ || (f.block_rests == heard_.block_rests && same(f.scale, heard_.scale)));
 }
 
 /// The scan asks for what the chain does not do, and no round has been begun for that.
