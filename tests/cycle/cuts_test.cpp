@@ -239,6 +239,10 @@ TEST(CycleAlarms, OfWordsThatSomeCyclesNeed) {
       {"G87 Z-5. R-8. F100 I0", "P33"},
       {"G83 Z-5. R2. F100 Q2.\nG76 X1.", "P33"},  // the Q of another cycle
       {"G83 Z-5. R2. F100 Q2.\nG76 X1. J1.\nX2.", ""},
+      {"G81 Z-5. R2. F100 I1. J.5\nG76 X1.", ""},  // "modals during the canned cycle", whatever hole they stand in
+      {"G18\nG81 Y-5. R2. F100 K2\nG76 X1.", "P33"},  // there K counts holes
+      {"G84 Z-5. R2. S500 Q4. F100 ,R0\nG83 X1.", ""},
+      {"G84 Z-5. R2. S500 F100 ,R0\nG83 X1.", "P33"},
       {"G87 Z-8. R-5. F100 I1.", "P35"},  // from below downwards
       {"G87 Z-5. R-5. F100 I1.", ""},
       {"G84 Z-5. R2. F1. S500 ,R2", "P35"},

@@ -350,6 +350,9 @@ struct CycleRules {
   /// All cycles have one format: each takes the words of every other one and keeps them for it (HX 12.1.2). Otherwise each has its own (DGSHAPE G80 to G89;
   /// Series 8 G81 to G89).
   bool words_of_all = false;
+  /// The words of a shift are kept for the cycles that have one from whatever hole they stand in (M700 13.1.1, G76 and G87: "modals during the canned cycle").
+  /// Otherwise only such a cycle takes them.
+  bool shift_of_any_hole = false;
   /// The bore that comes back with the spindle stopped dwells for P at the bottom (M700 13.1.1, G86). Otherwise its format has no P (DGSHAPE G86, HX 12.3.8).
   bool bore_stop_dwells = true;
   HoleData data = HoleData::of_mode;

@@ -76,6 +76,7 @@ inline constexpr Rules kRules = {
               .longest_dwell_ms = 99999999,
               .keeps_spindle_direction = false,
               .axis_follows_plane = false,
+              .shift_of_any_hole = true,
               .stops_over_hole = true},  // 13.1.1 (2)
     .reference = {.remembered_axes_go = false,
                   .forgets_with_program = false,

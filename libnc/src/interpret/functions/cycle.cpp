@@ -117,13 +117,22 @@ Execution follow_plane(BlockInHand& in) {
   return Execution::done;
 }
 
-/// The word of a shift along a basic axis is a count as well in some families: which it is, the cycle and its plane say.
-bool is_shift_word(const InForce& in, Role word) {
-  if (!strokes_of(in.state.cycle.kind).shifts) return false;
+bool names_shift(const InForce& in, Role word) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   const AddressTable& addresses = in.dialect->addresses;
   return addresses.same(word, vector_along(plane.first)) || addresses.same(word, vector_along(plane.second)) ||
          (in.state.cycle.kind == CycleKind::back_bore_to_level && addresses.same(word, Role::vector_z));
+}
+
+/// The word of a shift along a basic axis is a count as well in some families: which it is, the cycle and its plane say.
+bool is_shift_word(const InForce& in, Role word) { return strokes_of(in.state.cycle.kind).shifts && names_shift(in, word); }
+
+/// The word is kept as one of a shift. In a cycle without a shift the letter of a count stays one.
+bool keeps_shift_word(const InForce& in, Role word) {
+  if (is_shift_word(in, word)) return true;
+  const AddressTable& addresses = in.dialect->addresses;
+  const bool counts = addresses.same(word, Role::cycle_count) || addresses.same(word, Role::cycle_count_2);
+  return in.dialect->rules.cycle.shift_of_any_hole && !counts && names_shift(in, word);
 }
 
 /// Q without I J says where the place beside the hole is, so those of an earlier block count no more (HX 12.3.10; M700 13.1.1 with #1080).
@@ -138,7 +147,7 @@ bool q_replaces_shift(const BlockInHand& in) {
 void take_shift_words(BlockInHand& in) {
   CycleState& c = in.state.cycle;
   for (unsigned i = 0; i < 3; ++i)
-    if (in.words.has(vector_along(i)) && is_shift_word(in, vector_along(i))) c.shift[i] = length_of(in, vector_along(i));
+    if (in.words.has(vector_along(i)) && keeps_shift_word(in, vector_along(i))) c.shift[i] = length_of(in, vector_along(i));
   if (c.kind != CycleKind::back_bore_to_level || !in.words.has(Role::vector_z)) return;
   c.third = length_of(in, Role::vector_z);
   c.has_third = true;
@@ -180,8 +189,8 @@ Execution take_hole_data(BlockInHand& in) {
     c.first = axis_value(in, c.drill_axis, w.written(Role::cycle_first_depth), false);
   }
   if (w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step)) {
-    const double q = length_of(in, Role::cycle_depth_step);
-    (is_tap(c.kind) ? c.tap_q : c.q) = is_tap(c.kind) ? std::fabs(q) : q;
+    c.q = length_of(in, Role::cycle_depth_step);  // of any hole: the cycles that need a Q find it (M700 13.1.1, HX 12.1.2)
+    if (is_tap(c.kind)) c.tap_q = std::fabs(c.q);  // a tap goes in cuts by a Q of its own alone
     if (q_replaces_shift(in)) std::fill_n(c.shift, 3, 0.0);
   }
   take_shift_words(in);
