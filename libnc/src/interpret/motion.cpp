@@ -358,9 +358,20 @@ inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   move.thread_angle = static_cast<float>(style.thread_angle);
 }
 
+/// M700 12.4.2 (3), (4): with a vector in force the tool stands beside the programmed point, and a block without vectors whose end is that point leads it there. Only
+/// where an axis of the plane is commanded: one that lifts the tool does not draw it into the contour first.
+bool stands_off(const InForce& in, uint32_t commanded) {
+  const Compensation& comp = in.state.comp;
+  return comp.side != 0 && (commanded & (1u << comp.axis[0] | 1u << comp.axis[1])) != 0;
+}
+/// The same of vectors in space (12.5) and along the tool (12.3), of a place that the axes themselves go to.
+bool stands_off_place(const InForce& in, uint32_t commanded) {
+  return stands_off(in, commanded) || (commanded != 0 && (in.state.space.on || in.state.tool_length != 0));
+}
+
 void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   const MoveFrame frame = frame_of_move(in, target, commanded);
-  if (same_place(frame.start, frame.end, in.axis_count)) return;
+  if (same_place(frame.start, frame.end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   set_style(in, move, style);
@@ -379,7 +390,7 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
   AxisVec start;
   for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
   const AxisVec end = choose(commanded, target, start);  // an axis that is not named stays where it is
-  if (same_place(start, end, in.axis_count)) return;
+  if (same_place(start, end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
   if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
@@ -424,7 +435,7 @@ static void move_machine_by(BlockContext& in, const AxisVec& machine, uint32_t c
   AxisVec end = to_machine.apply_inverse(machine);
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((commanded >> i) & 1) == 0) end[i] = start[i];
-  if (same_place(start, end, in.axis_count)) return;
+  if (same_place(start, end, in.axis_count) && !stands_off_place(in, commanded)) return;
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, to_machine, start, end);
   move.kind = NC_MOVE_RAPID;

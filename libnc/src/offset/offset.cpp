@@ -322,7 +322,7 @@ void OffsetStage::intake_move(Held* held) {
   const bool is_short = dot(way, way) <= 2 * kNoDirection_mm * kNoDirection_mm;
   if (!moves || (is_short && !starts && !commands && intake_without_direction(held, offset_before, &begin, &end))) {
     side_changed_ = side_changed_ != other_side;
-    if (!moves) return commands ? intake_command(held) : intake_carried(held);
+    if (!moves) return commands && !move.comp.transparent ? intake_command(held) : intake_carried(held);
     return;
   }
   if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
