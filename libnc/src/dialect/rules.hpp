@@ -244,6 +244,9 @@ struct CompensationRules {
   /// The offset number holds until the next one, whatever block it stands in (M700 12.1; HX 13.1.1; Series 8 G41 prints it beside T). Otherwise it counts
   /// only beside the code of compensation (RS-274/NGC 3.5.10; DGSHAPE G41: "G41 D n").
   bool number_in_any_block = true;
+  /// An inner corner of a degree or less has no intersection but two vectors at right angles (DGSHAPE G40 to G42, "Exceptions"; its figure is lost, FANUC has it
+  /// so). Elsewhere an intersection that is not on the path is an alarm of the interference check.
+  bool square_in_spike = false;
   /// Tool position offset stands neither in compensation nor in the block of a cycle (HX 12.2.2, 13.3). Otherwise a cycle is made without it, and in
   /// compensation it lengthens the programmed way (M700 12.6).
   bool bars_position_offset = false;

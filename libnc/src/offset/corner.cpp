@@ -61,6 +61,8 @@ ContourJoint two_perpendiculars(const Leg& before, double offset_before, const L
   return joint;
 }
 
+constexpr double kSineOfHalfADegree = 0.0087265354983739;
+
 // How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
 double reach(const Leg& leg, Vec2 delta) { return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature); }
 
@@ -256,6 +258,10 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
   *joint = lengthened_joint(before, behind, o);
   return true;
 }
+
+bool is_of_spike(const ContourJoint& joint, double offset) { return joint.n == 1 && norm(joint.v[0]) * kSineOfHalfADegree >= std::abs(offset); }
+
+ContourJoint joint_of_spike(const Leg& before, const Leg& behind, double offset) { return two_perpendiculars(before, offset, behind, offset); }
 
 ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b) {
   const Turn turn = classify(before, behind, offset);

@@ -129,6 +129,11 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
 /// The ways that the two blocks lead, `delta_before` and `delta_behind`, bound how much a change of side may cut off.
 bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, double unsure, ContourJoint* joint);
 
+/// DGSHAPE G40 to G42, "Exceptions": lines that meet at an inner angle of a degree or less have their intersection more than a hundred radii away. Two vectors at right
+/// angles take its place.
+bool is_of_spike(const ContourJoint& joint, double offset);
+ContourJoint joint_of_spike(const Leg& before, const Leg& behind, double offset);
+
 /// The joint at the end of a start block.
 ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b);
 

@@ -644,7 +644,8 @@ bool OffsetStage::find_joint(const Section& before, const Compensation& comp_bef
     *joint = joint_corner_arc(before.end, behind.begin, before.offset);
   } else if (comp_before.arc_cos == 0 || offset_behind != before.offset ||
              !joint_of_outer_corner(before.end, behind.begin, before.offset, static_cast<double>(comp_before.arc_cos), joint)) {
-    return joint_in_mode(before.end, before.offset, before.delta, behind.begin, offset_behind, behind.delta, unsure_of(before.inch), joint);
+    if (!joint_in_mode(before.end, before.offset, before.delta, behind.begin, offset_behind, behind.delta, unsure_of(before.inch), joint)) return false;
+    if (comp_before.square_in_spike && offset_behind == before.offset && is_of_spike(*joint, before.offset)) *joint = joint_of_spike(before.end, behind.begin, before.offset);
   }
   return true;
 }

@@ -189,6 +189,7 @@ Execution set_compensation(BlockInHand& in, Function function) {
   comp.check = in.settings.interference_check;
   comp.walls = in.settings.contour_check;
   comp.avoid = in.settings.interference_avoid;
+  comp.square_in_spike = rules.square_in_spike;
   if (rules.arc_below_deg > 0) comp.arc_cos = static_cast<float>(std::cos((180 - rules.arc_below_deg) * std::numbers::pi / 180));
   comp.radius = radius_amount(in, state.modal.d);
   comp.side = state.modal.d == 0 ? int8_t{0} : side;
