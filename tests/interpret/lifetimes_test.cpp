@@ -73,7 +73,7 @@ NC_PARTS(Repeat, active, items)
 NC_PARTS(AxisMap, kind, linear, rotary, side, frozen, scale, angle)
 NC_PARTS(MillReturn, feed, plane, feed_mode, plane_axis, third_axis, letter, moved)
 NC_PARTS(SpindleControl, surface, axis, held)
-NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, arc_cos, radius, vector, by_hand)
+NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, square_in_spike, axis, arc_cos, radius, vector, by_hand)
 NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
          initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first, in_hole, way_out)
 NC_PARTS(LifeInput, kind, flags, group, life, registered)

@@ -64,7 +64,7 @@ class Hash {
   }
   void add_one(const Compensation& compensation) {
     const auto& [side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, square_in_spike, axis, arc_cos, radius, vector, by_hand] = compensation;
-    add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, bool{avoid}, bool{square_in_spike}, axis, static_cast<double>(arc_cos), radius, vector, by_hand);
+    add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, square_in_spike, axis, static_cast<double>(arc_cos), radius, vector, by_hand);
   }
   void add_one(const CycleState& cycle) {
     const auto& [kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,

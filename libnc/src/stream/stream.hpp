@@ -76,8 +76,8 @@ struct Compensation {
   bool cancel_vector = false; ///< G40 with I J K: `vector` is the hypothetical direction
   bool check = false;      ///< interference check on (M700 12.4.8: #8103 OFF); false: paths may cross
   bool walls = false;      ///< with `check`: the path keeps off the blocks around it as well (offset/walls.hpp)
-  bool avoid : 1 = false;  ///< with `check`: go round instead of the alarm (M700 #8102 ON)
-  bool square_in_spike : 1 = false;  ///< an inner corner of a degree or less has no intersection but two vectors at right angles (DGSHAPE G40 to G42)
+  bool avoid = false;      ///< with `check`: go round instead of the alarm (M700 #8102 ON)
+  bool square_in_spike = false;  ///< an inner corner of a degree or less has no intersection but two vectors at right angles (DGSHAPE G40 to G42)
   uint8_t axis[2] = {0, 1};  ///< plane: first (h) and second (v) axis, right-handed
   float arc_cos = 0;       ///< not 0: an outer corner with a turn whose cosine is below this is gone round on an arc, any other to the intersection
   double radius = 0;       ///< mm, signed as in the table
