@@ -258,8 +258,13 @@ void Scan::tell_later(const ActiveAlarm& alarm) noexcept {
 // Each cause is in the list once. False when there is no room for it.
 bool Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, std::uint32_t code) noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i) {
-    const ActiveAlarm& other = alarms_.alarm[i];
-    if (other.id == id && other.system == system && other.axis == axis && other.detail == detail) return true;
+    ActiveAlarm& other = alarms_.alarm[i];
+    if (other.id != id || other.system != system || other.axis != axis || other.detail != detail) continue;
+    if (id == AlarmId::kDriveFault && other.code == 0 && code != 0) {  // a drive may say why behind its fault: who has been told of it is told again, with the reason
+      other.code = code;
+      other.scan = scan_;
+    }
+    return true;
   }
   ActiveAlarm fresh;
   fresh.id = id;

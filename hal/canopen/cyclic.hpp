@@ -147,6 +147,7 @@ class Cyclic {
     DriveTrouble trouble = DriveTrouble::kNone;
     bool faulty = false, following_fault = false;
     unsigned reset_left = 0;     // SYNCs in which a fault is still being reset
+    bool in_fault = false;       // its newest status says so
     Homing homing = Homing::kNo;
     unsigned homing_syncs = 0;
     HomingAnswer answer;
@@ -180,6 +181,7 @@ class Cyclic {
   void take_probe(Axis* axis, const CanFrame& frame) noexcept;
   void take_heartbeat(unsigned node, const CanFrame& frame, std::int64_t now_ns) noexcept;
   void take_emergency(unsigned node, const CanFrame& frame) noexcept;
+  void forget_emergency(unsigned node) noexcept;
   void hand_over(const CanFrame& frame) noexcept;
   void watch_nodes(std::int64_t now_ns) noexcept;
   void work_modules() noexcept;

@@ -58,11 +58,21 @@ void Cyclic::watch_axis(unsigned index) noexcept {
     set_phase(axis.node, NodePhase::kAway);
   }
   if (axis.ahead >= kAheadLimit) fault(&axis, DriveTrouble::kTwice);
+  const bool was_in_fault = axis.in_fault;
   const DriveState state = drive_state(axis.status);
-  if ((state == DriveState::kFault || state == DriveState::kFaultReaction) && axis.reset_left == 0) {
+  axis.in_fault = state == DriveState::kFault || state == DriveState::kFaultReaction;
+  if (was_in_fault) forget_emergency(axis.node);
+  if (axis.in_fault && axis.reset_left == 0) {
     axis.following_fault |= axis.was_on && !axis.map->takes_speed() && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
     fault(&axis, DriveTrouble::kNone);
   }
+}
+
+// A drive says once why it is in fault, so that counts for as long as it is: a reset that does not help takes no reason away.
+void Cyclic::forget_emergency(unsigned node) noexcept {
+  for (const Axis& axis : axes_)
+    if (axis.node == node && axis.in_fault) return;
+  nodes_[node].emergency = 0;
 }
 
 // Its positions have not come for so long that the drive has ended its quick stop.
@@ -92,7 +102,7 @@ DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) 
     axis->reset_left = static_cast<unsigned>(syncs_of(kResetMs));
     axis->ahead = std::min(axis->ahead, 0);
     axis->on_syncs = 0;
-    nodes_[axis->node].emergency = 0;
+    forget_emergency(axis->node);
     axis->was_on &= drive_state(axis->status) == DriveState::kOperationEnabled;
   }
   if (axis->reset_left > 0) {

@@ -48,6 +48,7 @@ Service::Service(const BusMap& bus, Cyclic* cyclic, Report report) : bus_(bus), 
     first_axis_.push_back(axis);
     axis += static_cast<unsigned>(bus_.nodes[n].axes.size());
     wrong_.emplace_back("has not answered yet");
+    emergency_.emplace_back();
   }
 }
 
@@ -69,6 +70,7 @@ std::string Service::missing() const {
   for (unsigned n = 0; n < bus_.nodes.size(); ++n) {
     if (cyclic_->phase(n) == NodePhase::kOperational) continue;
     text += (text.empty() ? "node " : "; node ") + std::to_string(bus_.nodes[n].id) + " (" + bus_.nodes[n].name + "): " + wrong_[n];
+    if (!emergency_[n].empty()) text += ", and says " + emergency_[n];
   }
   return text;
 }
@@ -78,8 +80,12 @@ void Service::say(Node* node, const std::string& text) {
     const std::lock_guard lock(mutex_);
     wrong_[node->index] = text;
   }
-  if (text != node->said && report_) report_("node " + std::to_string(node->map->id) + " (" + node->map->name + "): " + text);
+  if (text != node->said) report(*node, text);
   node->said = text;
+}
+
+void Service::report(const Node& node, const std::string& line) const {
+  if (!line.empty() && report_) report_("node " + std::to_string(node.map->id) + " (" + node.map->name + "): " + line);
 }
 
 void Service::nmt(const Node& node, std::uint8_t command) {
@@ -104,13 +110,17 @@ void Service::fail(Node* node, const std::string& why, NodePhase phase, std::int
 
 // ---- frames from the bus ----
 
-void Service::take(const CanFrame& frame) {
+void Service::take(const CanFrame& frame, std::int64_t now_ns) {
   const unsigned id = frame.id & kLastNode, kind = frame.id & ~kLastNode;
   for (Node& node : nodes_) {
     if (node.map->id != id) continue;
     if (kind == kSdoAnswerId && !node.sdo->answer(frame)) ++node.unasked;
     if (kind == kHeartbeatId) {
       node.state = frame.data[0] & 0x7F;
+      if (node.state == kBootUp) {  // what it has said before is of another life
+        const std::lock_guard lock(mutex_);
+        emergency_[node.index].clear();
+      }
       // A node that boots has lost its set-up, wherever that was, so it begins again.
       if (node.state == kBootUp && node.step != Step::kReset && node.step != Step::kBoot) {
         if (node.step == Step::kRun) say(&node, kAnew);
@@ -118,14 +128,25 @@ void Service::take(const CanFrame& frame) {
         node.step = Step::kBoot;
       }
     }
-    if (kind == kEmergencyId && get_le(frame.data, 2) != 0)
-      say(&node, drive_fault_text(drive_fault_code(DriveTrouble::kEmergency, get_le(frame.data, 2), frame.data[2])));
+    if (kind == kEmergencyId) take_emergency(&node, frame, now_ns);
   }
+}
+
+// What a node says of itself stands beside the reason for which it cannot be used, and not in its place.
+void Service::take_emergency(Node* node, const CanFrame& frame, std::int64_t now_ns) {
+  const unsigned code = get_le(frame.data, 2);
+  const std::string text = code == 0 ? "" : drive_fault_text(drive_fault_code(DriveTrouble::kEmergency, code, frame.data[2]));
+  {
+    const std::lock_guard lock(mutex_);
+    emergency_[node->index] = text;
+  }
+  if (code != 0 && node->emergencies.takes(text, now_ns)) report(*node, text);
 }
 
 void Service::step(std::int64_t now_ns) {
   CanFrame frame;
-  while (cyclic_->from_bus(&frame)) take(frame);
+  for (Node& node : nodes_) report(node, node.emergencies.due(now_ns));
+  while (cyclic_->from_bus(&frame)) take(frame, now_ns);
   for (Node& node : nodes_) step_node(&node, now_ns);
 }
 

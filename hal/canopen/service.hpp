@@ -14,6 +14,7 @@
 #include "hal/canopen/cyclic.hpp"
 #include "hal/canopen/sdo_client.hpp"
 #include "hal/canopen/setup_plan.hpp"
+#include "hal/log_gate.hpp"
 
 namespace nc::hal::canopen {
 
@@ -34,6 +35,7 @@ class Service {
   bool refused() const;  // some node cannot be set up
 
  private:
+  static constexpr unsigned kEmergencies = 8;  // of a node in a minute, as lines of the log
   enum class Step : std::uint8_t { kReset, kBoot, kPlan, kStart, kMode, kRun, kPause };
   struct Node {
     enum class Job : std::uint8_t { kNone, kWrite, kRead };
@@ -53,9 +55,12 @@ class Service {
     std::int8_t wanted = 0;
     std::vector<std::int8_t> mode;  // mode of each axis that the drive has confirmed
     std::string said;           // last message for the log
+    LogGate emergencies{kEmergencies};
   };
 
-  void take(const CanFrame& frame);
+  void take(const CanFrame& frame, std::int64_t now_ns);
+  void take_emergency(Node* node, const CanFrame& frame, std::int64_t now_ns);
+  void report(const Node& node, const std::string& line) const;
   void step_node(Node* node, std::int64_t now_ns);
   void work_plan(Node* node, std::int64_t now_ns);
   void judge_plan_step(Node* node, std::int64_t now_ns);
@@ -74,7 +79,8 @@ class Service {
   std::vector<Node> nodes_;
   std::vector<unsigned> first_axis_;
   mutable std::mutex mutex_;
-  std::vector<std::string> wrong_;  // what is wrong with each node; guarded by mutex_
+  std::vector<std::string> wrong_;      // what is wrong with each node; guarded by mutex_
+  std::vector<std::string> emergency_;  // what it has said of itself by EMCY and not taken back; guarded by mutex_
 };
 
 }  // namespace nc::hal::canopen

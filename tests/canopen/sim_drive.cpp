@@ -345,7 +345,7 @@ void SimDrive::command_state(Axis& axis) {
     return;
   }
   if (axis.state == State::kFault) {
-    if (reset) {
+    if (reset && !keeps_fault) {
       axis.state = State::kSwitchOnDisabled;
       send(0x80 + node_, {0, 0, 0, 0, 0, 0, 0, 0});
     }

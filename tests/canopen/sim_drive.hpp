@@ -58,6 +58,7 @@ class SimDrive {
   bool no_tpdo = false;
   bool faults_at_enabling = false;
   bool never_enables = false;
+  bool keeps_fault = false;        // what its fault is about goes on: a reset does not help
   bool keeps_mapping = false;      // accepts another mapping without an error, but keeps its own
   bool answers_segmented = false;  // sends numbers in segments, too
   std::map<unsigned, std::uint32_t> refuses;  // index << 8 | sub -> abort code of a write
