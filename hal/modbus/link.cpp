@@ -18,6 +18,8 @@ constexpr unsigned kSliceMs = 100;                            // interval at whi
 constexpr milliseconds kStopLimit{5000};                      // time for writing the safe values of one link
 constexpr unsigned kFirstPauseMs = 100, kLastPauseMs = 5000;  // pauses between the attempts for a block that fails
 
+std::int64_t now_ns() { return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count(); }
+
 }  // namespace
 
 // ---- start and stop ----
@@ -85,6 +87,7 @@ void ModbusLink::stop() noexcept {
 
 void ModbusLink::run() {
   while (wait(milliseconds(0))) {
+    if (const std::string line = gate_.due(now_ns()); !line.empty()) say(line);
     if (!session_->is_open() && !connect()) {
       wait(next_backoff());
       continue;
@@ -97,6 +100,7 @@ void ModbusLink::run() {
       wait(std::chrono::ceil<milliseconds>(begin + milliseconds(config_.poll_ms) - steady_clock::now()));
   }
   write_safe_values();
+  if (const std::string line = gate_.rest(); !line.empty()) say(line);
   session_->close();
   const std::lock_guard lock(mutex_);
   statistics_.state = LinkState::kLost;
@@ -325,7 +329,11 @@ void ModbusLink::write_safe_values() {
   }
 }
 
-void ModbusLink::report(const std::string& line) const {
+void ModbusLink::report(const std::string& line) {
+  if (gate_.takes(line, now_ns())) say(line);
+}
+
+void ModbusLink::say(const std::string& line) const {
   if (report_) report_(config_.name + ": " + line);
 }
 

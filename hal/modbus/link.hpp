@@ -28,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/log_gate.hpp"
 #include "hal/modbus/session.hpp"
 #include "hal/point_bus.hpp"
 #include "hal/triple_buffer.hpp"
@@ -122,11 +123,14 @@ class ModbusLink final : public PointBus {
   void write_safe_values();
   bool wait(std::chrono::milliseconds time);
   void alive() noexcept;
-  void report(const std::string& line) const;
+  static constexpr unsigned kLinesAMinute = 60;
+  void report(const std::string& line);
+  void say(const std::string& line) const;
   std::chrono::milliseconds next_backoff();
 
   const LinkConfig config_;
   const Report report_;
+  LogGate gate_{kLinesAMinute};  // of the thread
   const std::int64_t stuck_ns_;
   std::unique_ptr<Session> session_;
   pthread_t thread_{};

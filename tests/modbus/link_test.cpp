@@ -173,6 +173,26 @@ TEST(ModbusLink, AnExceptionIsNamedAndLeavesTheConnection) {
   EXPECT_EQ(server.connections(), 1u);
 }
 
+// A device that is busy at every second request: each block comes and goes several times a second, for days.
+TEST(ModbusLink, AnExceptionThatComesAndGoesFillsNoLog) {
+  LoopbackServer server;
+  LinkRig rig;
+  server.with([&](auto& units) {
+    for (unsigned n = 0; n < 10; ++n) units[1].holding[100 * n] = 1;
+  });
+  for (unsigned n = 0; n < 10; ++n) rig.add(Table::kHolding, 100 * n, Format::kU16);
+  server.set_fault([times = std::map<unsigned, unsigned>()](const Bytes& request, Answer right) mutable {
+    if (++times[request[8] * 256u + request[9]] % 2 == 0) right.bytes = {request[0], request[1], 0, 0, 0, 3, request[6], static_cast<std::uint8_t>(request[7] | 0x80), 6};
+    return right;
+  });
+  rig.start(server.port());
+  ASSERT_TRUE(rig.until([&] { return rig.link->statistics().exceptions >= 100; }));
+  rig.link->stop();
+  const std::string log = rig.log();
+  EXPECT_LE(std::count(log.begin(), log.end(), '\n'), 62) << log;
+  EXPECT_NE(log.find("more of these, the last one: "), std::string::npos) << log;
+}
+
 // A gateway whose unit 2 does not answer.
 TEST(ModbusLink, ADeadUnitTakesNoOtherWithIt) {
   LoopbackServer server;
