@@ -130,7 +130,8 @@ class Series8Writer : public NaiveWriter {
   std::string own_words(bool begins) {
     std::string words;
     const bool dwells = code_ == 82 || code_ >= 84;
-    if (dwells && code_ != 87 && (begins || chance(0.2))) {
+    if (code_ == 84 && begins) p_ = 0;  // a tap has no dwell in its steps: that of the cycle before is none of its own
+    if (dwells && code_ != 87 && ((begins && code_ != 84) || chance(0.2))) {
       p_ = chance(0.3) ? 0 : number(0.1, 2);
       words += word('P', p_);
     }
