@@ -98,6 +98,32 @@ TEST(Tap, SynchronousHasItsLeadAndSpeed) {
   EXPECT_EQ(tap("G84 Z-8. R2. S800 F1.5 ,R1\nG80\nG1 X50.", {}, "F333\n").moves().back().feed_mm_min, 333);
 }
 
+/// 10.4: "the lowest upper limit is valid", also of a spindle that a tap turns; in G97 where #1146 is 1 and #1227 bit 5 is 0.
+TEST(Tap, ASynchronousOneKeepsTheClampOfTheSpindle) {
+  const auto feeds = [](const std::string& clamp, const std::string& words = "", const std::map<std::string, std::string>& set = {{"1146", "1"}}) {
+    const Outcome run = tap("G84 Z-8. R2. S800 F1.5 ,R1 " + words, set, clamp + "\n");
+    return run.alarm.empty() ? std::vector<double>{run.moves().at(1).feed_mm_min, run.moves().at(2).feed_mm_min} : std::vector<double>{};
+  };
+  EXPECT_EQ(feeds("G92 S500"), (std::vector<double>{750, 750}));
+  EXPECT_EQ(feeds("G92 S500", ",S1600"), (std::vector<double>{750, 750}));
+  EXPECT_EQ(feeds("G92 S1000", ",S1600"), (std::vector<double>{1200, 1500}));
+  EXPECT_EQ(feeds("G92 S500\nG92 S1000", ",S1600"), (std::vector<double>{1200, 1500})) << "the last one counts";
+  EXPECT_EQ(feeds("G92 S500 Q600"), (std::vector<double>{900, 900})) << "precaution (1): they change places";
+  EXPECT_EQ(feeds("G92 Q900"), (std::vector<double>{1200, 1200})) << "a lower limit makes no tap faster than its S";
+  EXPECT_EQ(feeds("G92 S500", "", {{"1146", "1"}, {"1227", "32"}}), (std::vector<double>{1200, 1200})) << "in G96 only";
+  EXPECT_EQ(feeds("G92 S500", "", {{"1146", "0"}}), (std::vector<double>{1200, 1200})) << "a spindle speed";
+  EXPECT_EQ(feeds("G92 S600", "", {{"1146", "1"}, {"3005", "500"}}), (std::vector<double>{750, 750})) << "the lowest";
+}
+
+TEST(Tap, TheSpeedOfASynchronousOneIsNotThatOfASurface) {  // 10.3: in G96 another S would be
+  const Outcome run = tap("G84 Z-8. R2. S800 F1.5 ,R1", {}, "G96 S100\n");
+  EXPECT_EQ(run.moves().at(1).feed_mm_min, 1200);
+  std::vector<double> surfaces;
+  for (const Step& step : run.steps)
+    if (step.item.kind == NC_ITEM_ACTION && step.item.u.action.kind == NC_ACTION_CONTROL && step.item.u.action.index == NC_CONTROL_SURFACE_SPEED) surfaces.push_back(step.item.u.action.value);
+  EXPECT_EQ(surfaces, (std::vector<double>{100, 0})) << "and at the end of the program none";
+}
+
 TEST(Tap, ChecksOfASynchronousTap) {  // "setting values of synchronous tap in-position check parameters"
   const auto path = [](unsigned bits, const char* p, const char* least = "0") {
     return strokes(tap(std::string("G84 Z-8. R2. S800 F1.5 ,R1 ") + p, {{"1223", std::to_string(bits)}, {"1313", least}}, ""));

@@ -73,6 +73,7 @@ NC_PARTS(Repeat, active, items)
 NC_PARTS(AxisMap, kind, linear, rotary, side, frozen, scale, angle)
 NC_PARTS(MillReturn, feed, plane, feed_mode, plane_axis, third_axis, letter, moved)
 NC_PARTS(SpindleControl, surface, axis, held)
+NC_PARTS(SpindleClamp, any, always, has_s, s, q)
 NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, square_in_spike, axis, arc_cos, radius, vector, by_hand)
 NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
          initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first, in_hole, way_out)
@@ -118,7 +119,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ModalInProgram, comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
             figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
-  NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle)
+  NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamp, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle)
   NC_FIELDS(UntilOperatorReset, left_by_end)
   NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open, selected_tool, spindle_tool, reads_beside_machine, machine_has)
   NC_FIELDS(Derived, special, high_accuracy, modal_call, mapped, work_turned, work_turn_pending)
@@ -308,11 +309,11 @@ TEST(StateGroups, ParametersKeepThePolarCommandAndTheClampOverAReset) {  // M700
     InitialValues initial;
     initial.keeps_clamp = initial.keeps_polar_command = kept;
     State state;
-    state.spindle_clamped = true;
+    state.spindle_clamp.any = true;
     state.modal.set(Function::polar_command_on);
     end_by_operator(state);
     begin_program(state, initial, false);
-    EXPECT_EQ(state.spindle_clamped, kept);
+    EXPECT_EQ(state.spindle_clamp.any, kept);
     EXPECT_EQ(state.modal.is(Function::polar_command_on), kept);
   }
 }

@@ -23,7 +23,7 @@ void set_initial_modes(State& state, const StateValues& before, const InitialVal
   for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = initial.plane_axis[i];
   state.third_axis = initial.third_axis;
   if (initial.keeps_polar_command && before.modal.is(Function::polar_command_on)) state.modal.set(Function::polar_command_on);
-  if (initial.keeps_clamp) state.spindle_clamped = before.spindle_clamped;
+  if (initial.keeps_clamp) state.spindle_clamp = before.spindle_clamp;
   const LeftByEnd& left = state.left_by_end;
   if (!left.any) return;
   state.modal.set(left.motion);

@@ -275,11 +275,23 @@ struct ProgramLife {
   uint8_t suppressed = 0, disabled = 0;  ///< nc_suppress_bits and nc_disable_bits (M700 13.5.5): cleared by a reset
 };
 
+/// G92 S Q (M700 10.4). The speeds of the spindles are clamped where they are executed (interpolate/spindle.hpp); a synchronous tap turns its spindle by its path,
+/// which has to keep the clamp from the start.
+struct SpindleClamp {
+  bool any = false;
+  bool always = false;          ///< in G97, too
+  bool has_s = false;
+  uint32_t s = 0, q = 0;        ///< as programmed, r/min
+
+  /// The highest speed of a synchronous tap, r/min; 0 = not clamped. Precaution (1): an S below Q changes places with it.
+  uint32_t of_tap() const { return always && has_s ? std::max(s, q) : 0; }
+};
+
 /// What the machine has been commanded to do: it stays over an interrupt and over MDI blocks.
 struct UntilReset {
   bool spindle_on = false;
   bool spindle_reverse = false; ///< as it was last turned
-  bool spindle_clamped = false; ///< by G92 S Q (M700 10.4): what at is known where it is executed
+  SpindleClamp spindle_clamp;
   uint32_t length_handle_number = 0;  ///< number of the length along the tool to which the handle has added ...
   double length_by_handle = 0;        ///< ... this, mm (M700 12.3)
   bool length_changed_by_handle = false;  ///< since the last movement

@@ -62,6 +62,10 @@ class Hash {
     const auto& [surface, axis, held] = spindle;
     add(surface, axis, held);
   }
+  void add_one(const SpindleClamp& clamp) {
+    const auto& [any, always, has_s, s, q] = clamp;
+    add(any, always, has_s, s, q);
+  }
   void add_one(const Compensation& compensation) {
     const auto& [side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, square_in_spike, axis, arc_cos, radius, vector, by_hand] = compensation;
     add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, square_in_spike, axis, static_cast<double>(arc_cos), radius, vector, by_hand);
@@ -245,8 +249,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled);
   }
   {
-    const auto& [spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle] = static_cast<const UntilReset&>(values);
-    hash.add(spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle);
+    const auto& [spindle_on, spindle_reverse, spindle_clamp, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle] = static_cast<const UntilReset&>(values);
+    hash.add(spindle_on, spindle_reverse, spindle_clamp, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle);
   }
   {
     const auto& [left_by_end] = static_cast<const UntilOperatorReset&>(values);

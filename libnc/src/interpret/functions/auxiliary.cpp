@@ -68,7 +68,7 @@ Execution spindle_word(BlockContext& in) {
   }
   const double written = in.words.get(Role::spindle_speed);
   if (!whole_number(written, &s) || s > in.dialect->rules.range.largest_spindle_value) return in.raise(Condition::value_range, Role::spindle_speed, written);
-  if (in.state.spindle.axis != 0) {
+  if (in.state.spindle.axis != 0 && !tap) {  // the S of a synchronous tap is a speed, and not that of a surface
     const Execution did = surface_word(in);
     if (did != Execution::done) return did;
   }

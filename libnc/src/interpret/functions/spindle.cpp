@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Constant surface speed G96, G97 and the clamp speeds G92 S Q (M700 10.3, 10.4). The interpreter only hands on what the program commands; the spindle speed
 // follows the position of an axis and is calculated by the scan (interpolate/spindle.hpp).
+#include <algorithm>
+
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -52,7 +54,7 @@ Execution set_surface_speed(BlockContext& in) {
       const Execution did = speed_word(in, Role::clamp_highest, &largest);
       if (did != Execution::done) return did;
     }
-    in.state.spindle_clamped = largest != 0;
+    in.state.spindle_clamp.any = largest != 0;
     emit_control(in, NC_CONTROL_SPINDLE_CLAMP, largest != 0 ? NC_CLAMP_S : 0, 0, largest);
   }
   for (const FunctionRow* row : in.words.functions) {
@@ -118,9 +120,15 @@ Execution set_spindle_clamp(BlockContext& in) {
   Execution did = s ? speed_word(in, Role::spindle_speed, &largest) : Execution::done;
   if (did == Execution::done && w.has(Role::clamp_lowest)) did = speed_word(in, Role::clamp_lowest, &smallest);
   if (did != Execution::done) return did;
-  in.state.spindle_clamped = true;
+  SpindleClamp& clamp = in.state.spindle_clamp;
   // 10.4, Sclamp and aux11 bit 5: the clamp acts in G97 only with Sclamp = 1 and bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_surface_speed_only;
+  clamp.any = true;
+  clamp.always = always;
+  // Which of several spindles is selected the machine knows when it comes here: a tap keeps the lowest of the clamps that any of them may have.
+  if (s) clamp.s = in.system->spindle_count > 1 && clamp.has_s ? std::min(clamp.s, largest) : largest;
+  clamp.has_s = clamp.has_s || s;
+  if (w.has(Role::clamp_lowest)) clamp.q = smallest;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
                (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has(Role::clamp_lowest) ? NC_CLAMP_Q : 0),
                smallest, largest);
@@ -130,7 +138,7 @@ Execution set_spindle_clamp(BlockContext& in) {
 void end_spindle_control(BlockContext& in) {
   const SpindleControl& spindle = in.state.spindle;
   if (spindle.axis != 0) emit_control(in, NC_CONTROL_SURFACE_SPEED, 0, 0, 0);
-  if (in.state.spindle_clamped && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
+  if (in.state.spindle_clamp.any && !in.settings.keeps_clamp) emit_control(in, NC_CONTROL_SPINDLE_CLAMP, 0, 0, 0);
 }
 
 }  // namespace nc

@@ -131,7 +131,8 @@ double stroke_time(const TapLaw& law, double turns) {
 /// higher speed would make a short hole slower, which never comes to it and would have its slope all the same.
 TapLaw tap_law(const InForce& in, double rev_min, double turns) {
   const TapStage* const stage = in.settings.tap_stage;
-  const double most = in.settings.tap_most_rev_min > 0 ? in.settings.tap_most_rev_min : HUGE_VAL, wanted = std::fmin(rev_min, most);
+  const double most = in.settings.tap_most_rev_min > 0 ? in.settings.tap_most_rev_min : HUGE_VAL, clamp = in.state.spindle_clamp.of_tap();
+  const double wanted = std::fmin(rev_min, clamp > 0 ? std::fmin(clamp, most) : most);
   double from = 0;
   TapLaw best{wanted, 0}, law{wanted, 0};
   for (unsigned i = 0; i < 3 && from < wanted; ++i) {
