@@ -94,6 +94,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   resolve_equipment(&reader, &read);
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);
+  limit_taps(&read);
   check_point_uses(&reader, read);
   read_share(&reader, &read);
   read_services(&reader, &read);

@@ -21,6 +21,7 @@ void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
 // A parameter's value as the text that nc_parameter_set() takes: of a number or a word. A switch is 0 or 1, as in the manual.
 std::optional<std::string> parameter_text(const toml::node& node);
+std::string parameter_text(double number);
 void read_work_offsets(TableReader* root, Config* config);
 void read_tool_offsets(TableReader* root, Config* config);
 void read_points(TableReader* root, Config* config);  // after read_point_buses(), which reads the buses that carry points
@@ -36,6 +37,7 @@ int read_input(TableReader* reader, const std::string& key, hal::PointType type,
 void read_power(TableReader* root, Config* config);  // after the signals
 void read_sim(TableReader* root, Config* config);
 void read_spindle_feedback(TableReader* root, Config* config);  // after [sim] and the points; in runtime/config_spindles.cpp
+void limit_taps(Config* config);  // after parameters and spindles; in the same file
 void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
 void read_services(TableReader* root, Config* config);  // runtime/services/config_services.cpp
 // [sim.spindle], [sim.spindle2] ... and [sim.tool_changer]; called by read_sim() with the reader of [sim].

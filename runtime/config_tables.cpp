@@ -48,13 +48,15 @@ const ConfigPlace* place_of_offset(const Config& config, const WorkOffsetSetting
 
 }  // namespace
 
+std::string parameter_text(double number) {  // nc_parameter_set() reads no exponent
+  char buffer[400];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::fixed);
+  return {buffer, result.ptr};
+}
+
 std::optional<std::string> parameter_text(const toml::node& node) {
   double number = 0;
-  if (node_number(node, &number)) {  // nc_parameter_set() reads no exponent
-    char buffer[400];
-    const auto result = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::fixed);
-    return std::string(buffer, result.ptr);
-  }
+  if (node_number(node, &number)) return parameter_text(number);
   if (const auto* text = node.as_string()) return text->get();
   return {};
 }

@@ -29,14 +29,15 @@ constexpr double kMotorIncrements = 10000, kTapRamp_s = 0.25;
 constexpr const char* kGears = "gears = [[4, 1], [1, 1]]\ngear_select = \"gear\"\n";
 
 // #3013 and #3017: the tap accelerates its spindle to `rpm` in a quarter of a second.
-std::string with_spindle(const std::string& more = "", const std::string& base = kSpindle, unsigned sync_us = 2000, unsigned rpm = 600) {
+std::string with_spindle(const std::string& more = "", const std::string& base = kSpindle, unsigned sync_us = 2000, unsigned rpm = 600,
+                         const std::string& most = "\"3005\" = 3000\n") {
   std::string text = can_toml("sync_us = " + std::to_string(sync_us) + "\n");
   std::string points;
   for (const char* name : {"m3", "m4", "m19"}) points += std::string("[[point]]\nname = \"") + name + "\"\ndirection = \"output\"\n";
   points += "[[point]]\nname = \"m19_done\"\ndirection = \"input\"\n[[point]]\nname = \"gear\"\ndirection = \"output\"\ntype = \"word\"\ninitial = 1\n";
   text.insert(text.find("[macro_interface]"), points);
   text.insert(text.find("\"#1000\" = "), "\"#1103\" = \"m3\"\n\"#1104\" = \"m4\"\n\"#1119\" = \"m19\"\n\"#1019\" = \"m19_done\"\n\"#1133\" = \"gear\"\n");
-  return text + base + more + "[parameters]\n\"3005\" = 3000\n\"3013\" = " + std::to_string(rpm) + "\n\"3017\" = 250\n";
+  return text + base + more + "[parameters]\n" + most + "\"3013\" = " + std::to_string(rpm) + "\n\"3017\" = 250\n";
 }
 
 std::string errors_of(const std::string& text) {
@@ -53,8 +54,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 struct SpindleRig : CanRig {
-  explicit SpindleRig(const std::string& more = "", const std::string& base = kSpindle, unsigned sync_us = 2000, unsigned rpm = 600)
-      : CanRig(with_spindle(more, base, sync_us, rpm), {1, 2, 3, 4}) {
+  explicit SpindleRig(const std::string& more = "", const std::string& base = kSpindle, unsigned sync_us = 2000, unsigned rpm = 600, const std::string& most = "\"3005\" = 3000\n")
+      : CanRig(with_spindle(more, base, sync_us, rpm, most), {1, 2, 3, 4}) {
     drives[3]->sync_s = sync_us * 1e-6;
     bring_up();
     step(200);
@@ -492,6 +493,23 @@ TEST(CanSpindle, WhatIsWrongInTheFileIsNamed) {
   }
   const std::string both = errors_of(with_spindle(std::string(kGears) + kOrient));
   EXPECT_NE(both.find("orient.request: a spindle with gear steps cannot be oriented by its motor"), std::string::npos) << both;
+}
+
+// M700 13.1.1 (14): no tap turns its spindle faster than #3005, and what does not name it has max_rpm. A tap with a higher S would lose its spindle in the hole.
+TEST(CanSpindle, ATapGoesNoFasterThanItsSpindleCan) {
+  for (const char* named : {"\"3005\" = 2000\n", ""}) {
+    SpindleRig rig(std::string(), kSpindle, 2000, 1200, named);
+    rig.block("G90 G0 Z0");
+    ASSERT_EQ(rig.mdi("G84 X0 Y0 Z-45. R0 F.5 S9000 ,R1\nG80"), Answer::kDone);
+    double most = 0;
+    ASSERT_TRUE(rig.until([&] {
+      most = std::max(most, std::fabs(rig.rpm()));
+      return rig.idle();
+    }, 20000)) << rig.alarms();
+    EXPECT_EQ(rig.alarms(), "");
+    EXPECT_LT(most, *named != 0 ? 2020 : 3020);
+    EXPECT_GT(most, *named != 0 ? 1950 : 2950);
+  }
 }
 
 // An angle is held by the loop of an axis whose drive is given a speed, so the gain that a file does not give is one that cannot swing either.
