@@ -68,7 +68,7 @@ void append_histogram(std::string* text, const char* name, const Histogram& hist
 }  // namespace
 
 std::uint64_t estimate_lines(ProgramText* program, nc_dialect dialect) {
-  const std::uint64_t size = program->size();
+  const std::uint64_t size = program->copied() ? program->size() : static_cast<std::uint64_t>(program->info().st_size);  // of one that is converted about as many
   const std::uint64_t wanted = size <= kCountedBytes ? size : 1u << 20;
   std::vector<char> block(kBlock);
   std::uint64_t read = 0;

@@ -23,6 +23,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::uint64_t kMostGrowth = 3;  // bytes of UTF-8 that one byte of another encoding may become: a katakana of one byte, or the sign for what is no character
 
 nanoseconds time_of(const struct timespec& t) { return std::chrono::seconds(t.tv_sec) + nanoseconds(t.tv_nsec); }
 
@@ -179,39 +180,25 @@ void ProgramText::finish(std::string* text) const {
   if (cr_ends_line_) std::replace(text->begin(), text->end(), '\r', '\n');
 }
 
-// Divides a large file into parts. UTF-8 is not converted, so the parts of the text are those of the file, and nothing has to be read. A conversion
-// changes the length, so the whole file is read once to find where each part begins in the text.
+// Divides a large file into parts, of which the last one is where what is known of it ends. UTF-8 is not converted, so the parts of the text are those of the file, and
+// nothing has to be read. A conversion changes the length, so where a part begins in the text is known when the one before it has been read.
 bool ProgramText::divide() {
   const auto end = static_cast<std::uint64_t>(info_.st_size);
-  std::string bytes, text;
-  parts_.clear();
+  std::string head;
   loaded_ = SIZE_MAX;
-  if (!read_file(descriptor_, 0, kPart, &bytes)) return false;
-  look_at_head(bytes);
+  if (!read_file(descriptor_, 0, kPart, &head)) return false;
+  look_at_head(head);
   const bool converts = !options_.as_it_is && options_.encoding != Encoding::kUtf8;
-  Decoder decoder(options_.encoding);
-  std::uint64_t in_text = 0;
-  for (std::uint64_t at = mark_; at < end;) {
-    Part part;
-    part.file_begin = at;
-    part.text_begin = in_text;
-    std::size_t used = static_cast<std::size_t>(std::min<std::uint64_t>(kPart, end - at));
-    std::size_t length = used;
-    if (converts) {
-      if (!read_file(descriptor_, at, used, &bytes)) return false;
-      text.clear();
-      used = decoder.take(bytes, at + bytes.size() >= end, &text);
-      if (used == 0) return false;
-      bytes.resize(used);
-      part.hash = hash_of(bytes);
-      part.hashed = true;
-      length = text.size();
-    }
-    parts_.push_back(part);
-    at += used;
-    in_text += length;
+  Part next;
+  next.file_begin = std::min<std::uint64_t>(mark_, end);
+  size_ = (end - next.file_begin) * (converts ? kMostGrowth : 1);
+  parts_.assign(1, next);
+  while (!converts && next.file_begin < end) {
+    const std::uint64_t length = std::min<std::uint64_t>(kPart, end - next.file_begin);
+    next.file_begin += length;
+    next.text_begin += length;
+    parts_.push_back(next);
   }
-  size_ = in_text;
   return is_unchanged();
 }
 
@@ -234,33 +221,43 @@ long ProgramText::give_up(long code) {
   return code;
 }
 
+// The last one is the part behind those that are known, whose end is found with it.
 bool ProgramText::load(std::size_t index) {
   if (index == loaded_) return true;
-  Part& part = parts_[index];
-  const std::uint64_t end = index + 1 < parts_.size() ? parts_[index + 1].file_begin : static_cast<std::uint64_t>(info_.st_size);
+  const bool next = index + 1 == parts_.size();
+  const std::uint64_t begin = parts_[index].file_begin, file_end = static_cast<std::uint64_t>(info_.st_size);
+  const std::uint64_t end = next ? std::min(file_end, begin + kPart) : parts_[index + 1].file_begin;
   std::string bytes;
   loaded_ = SIZE_MAX;
-  if (!read_file(descriptor_, part.file_begin, static_cast<std::size_t>(end - part.file_begin), &bytes)) {
+  if (!read_file(descriptor_, begin, static_cast<std::size_t>(end - begin), &bytes)) {
     give_up(NC_READ_FAILED);
     return false;
+  }
+  bool good = bytes.size() == end - begin;
+  if (options_.as_it_is || options_.encoding == Encoding::kUtf8) {
+    text_ = bytes;
+  } else {
+    text_.clear();
+    const std::size_t used = Decoder(options_.encoding).take(bytes, !next || end == file_end, &text_);
+    good = good && used > 0;
+    bytes.resize(used);
   }
   // The file is compared after the bytes were read: the kernel sets the time of a file before it stores what is written, so when new bytes
   // were read, the new time is there as well.
   const std::uint64_t hash = hash_of(bytes);
-  if (bytes.size() != end - part.file_begin || !is_unchanged() || (part.hashed && part.hash != hash)) {
+  if (!good || !is_unchanged() || (parts_[index].hashed && parts_[index].hash != hash)) {
     give_up(NC_READ_CHANGED);
     return false;
   }
-  part.hash = hash;
-  part.hashed = true;
-  if (options_.as_it_is || options_.encoding == Encoding::kUtf8) {
-    text_ = std::move(bytes);
-  } else {
-    text_.clear();
-    Decoder(options_.encoding).take(bytes, true, &text_);
-  }
+  parts_[index].hash = hash;
+  parts_[index].hashed = true;
   finish(&text_);
   loaded_ = index;
+  if (!next) return true;
+  Part behind;
+  behind.file_begin = begin + bytes.size();
+  behind.text_begin = parts_[index].text_begin + text_.size();
+  parts_.push_back(behind);
   return true;
 }
 
@@ -273,6 +270,11 @@ long ProgramText::read(std::uint64_t offset, char* buffer, std::size_t size) {
   }
   const std::lock_guard lock(mutex_);
   if (failure_ != 0) return failure_;
+  while (parts_.back().text_begin < offset + size && parts_.back().file_begin < static_cast<std::uint64_t>(info_.st_size))
+    if (!load(parts_.size() - 1)) return failure_;
+  const std::uint64_t known = parts_.back().text_begin;
+  if (offset >= known) return 0;
+  size = static_cast<std::size_t>(std::min<std::uint64_t>(size, known - offset));
   auto index = static_cast<std::size_t>(
       std::upper_bound(parts_.begin(), parts_.end(), offset, [](std::uint64_t at, const Part& part) { return at < part.text_begin; }) -
       parts_.begin() - 1);

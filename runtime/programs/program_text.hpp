@@ -4,8 +4,8 @@
 // A writer that changes the file meanwhile (an editor, cp, a post processor) must not change the program that runs: half of the old text with half of
 // the new one is a program that nobody has written. A file of up to Options::copy_bytes is read whole and not looked at again. Of a larger file each
 // part is read when it is needed. At that moment the size, times and place of the file must be unchanged, and a part that is read again must have the
-// same hash as before. Otherwise the text counts as changed, and nothing more of it can be read. The file is not mapped into memory, because
-// truncating a mapped file would end the process.
+// same hash as before. Otherwise the text counts as changed, and nothing more of it can be read. Nothing of it is read when it is opened, in whatever encoding it is: in
+// gigabytes that takes longer than an operator waits. The file is not mapped into memory, because truncating a mapped file would end the process.
 //
 // A file that is being written is not a complete program. It is taken only when no process has it open for writing, it has been unchanged for
 // kQuiet, and its times are the same behind the reading. Of a small one that has been unchanged for less than kCoarse two readings must be the same as well, because
@@ -53,7 +53,7 @@ class ProgramText {
   ProgramText(const ProgramText&) = delete;
   ProgramText& operator=(const ProgramText&) = delete;
 
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return size_; }  // of one that is converted and not copied the most that it can have: read() gives 0 behind its end
   // Of the file, as it was opened.
   const struct stat& info() const { return info_; }
   bool copied() const { return descriptor_ < 0; }
@@ -90,7 +90,7 @@ class ProgramText {
   bool cr_ends_line_ = false;
   std::string text_;           // the whole text, or of a large file the part that was read last
   std::mutex mutex_;           // guards the members below, and text_ when it is a part
-  std::vector<Part> parts_;
+  std::vector<Part> parts_;  // those that are known, and where they end
   std::size_t loaded_ = SIZE_MAX;
   long failure_ = 0;
 };

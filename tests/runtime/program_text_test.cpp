@@ -303,12 +303,39 @@ TEST_P(ProgramTextTest, ConvertedAcrossParts) {
       write(bytes + ")\n");
       const auto program = open(encoding);
       ASSERT_NE(program, nullptr) << error_;
-      EXPECT_EQ(program->size(), expected.size() + 2);
-      EXPECT_EQ(all_of(program.get()), expected + ")\n");
+      EXPECT_GE(program->size(), expected.size() + 2);
       char last[3] = {};
-      EXPECT_EQ(program->read(program->size() - 2, last, 3), 2);
+      EXPECT_EQ(program->read(expected.size(), last, 3), 2) << "before anything else has been read";
       EXPECT_STREQ(last, ")\n");
+      EXPECT_EQ(all_of(program.get()), expected + ")\n");
+      EXPECT_EQ(program->read(expected.size() + 2, last, 3), 0);
     }
+  }
+}
+
+// Bytes that this process has read from files.
+std::uint64_t bytes_read() {
+  std::ifstream file("/proc/self/io");
+  std::string name;
+  std::uint64_t bytes = 0;
+  return file >> name >> bytes && name == "rchar:" ? bytes : 0;
+}
+
+// A program of gigabytes is selected while an operator waits, and everybody who asks for something else.
+TEST_P(ProgramTextTest, ALargeFileIsNotReadWhenItIsOpened) {
+  if (GetParam() != kWatched || bytes_read() == 0) GTEST_SKIP() << "it is copied, or the system does not count what is read";
+  constexpr std::uint64_t kSize = 64 << 20;
+  write("(\x95\x5C)\n");
+  std::filesystem::resize_file(path_, kSize);
+  for (const Encoding encoding : {Encoding::kUtf8, Encoding::kLatin1, Encoding::kShiftJis}) {
+    const std::uint64_t before = bytes_read();
+    const auto program = open(encoding);
+    ASSERT_NE(program, nullptr) << error_;
+    EXPECT_LT(bytes_read() - before, kSize / 16);
+    EXPECT_GE(program->size(), kSize);
+    char first = 0;
+    EXPECT_EQ(program->read(0, &first, 1), 1);
+    EXPECT_EQ(first, '(');
   }
 }
 
