@@ -82,6 +82,32 @@ TEST(BlockReader, TooMuchForTheWindow) {
   EXPECT_EQ(letter_of(b->words[0].slot), 'M');
 }
 
+// In memory and through any window: the feeder has other things to do than to look for the end of a line of gigabytes.
+TEST(BlockReader, ABlockHasAMebibyteAtMost) {
+  constexpr std::size_t kMost = 1 << 20;
+  const std::string good = "G1" + std::string(kMost - 5, ' ') + "X1\nM30\n", end = "%" + std::string(2 * kMost, '\0');
+  for (const char filling : {' ', '(', 'X', '\0'}) {
+    const std::string longer = "G1 X1" + std::string(3 * kMost, filling) + "\nM30\n";
+    for (const unsigned window : {512u, 65536u, 0u}) {
+      Texts t(window == 0 ? 512 : window);
+      const auto add = [&](const char* name, const std::string& text) { return window == 0 ? t.add_memory(name, text) : t.add_callback(name, text); };
+      const Block* b = t.reader.read(add("good", good), 0, 1);
+      ASSERT_NE(b, nullptr);
+      EXPECT_FALSE(b->has_fault) << window;
+      EXPECT_EQ(b->next, kMost);
+      b = t.reader.read(add("end", end), 0, 1);
+      ASSERT_NE(b, nullptr);
+      EXPECT_TRUE(b->percent && !b->has_fault) << "behind it a tape has feed holes";
+      b = t.reader.read(add("longer", longer), 0, 1);
+      ASSERT_NE(b, nullptr);
+      EXPECT_TRUE(b->has_fault) << window << " " << filling;
+      EXPECT_EQ(b->fault.condition, Condition::block_too_long) << window << " " << filling;
+      EXPECT_EQ(b->next, kMost) << window << " " << filling;
+      EXPECT_EQ(b->next_line, 1u);
+    }
+  }
+}
+
 TEST(BlockReader, TheCutOfATooLongBlockIsNotTakenForAnotherFault) {
   Texts t(16);
   const unsigned file = t.add_callback("a", "N" + std::string(40, '0') + "1\nX1\n");

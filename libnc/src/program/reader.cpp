@@ -7,6 +7,7 @@
 
 #include "alarm/condition.hpp"
 #include "program/cursor.hpp"
+#include "program/longest_block.hpp"
 #include "program/store.hpp"
 #include "program/tape.hpp"
 
@@ -147,6 +148,16 @@ unsigned power_of_two_below(unsigned n) {
   unsigned power = 1;
   while (power <= n / 2) power *= 2;
   return n == 0 ? 0 : power;
+}
+
+/// Ends the block where it is longer than a block can be. Behind the end of the record anything may stand, of any length.
+void cut(Block& block) {
+  block.next = block.begin + kLongestBlock;
+  if (block.percent) return;
+  block.empty = false;
+  block.has_fault = true;
+  block.fault = Fault{};
+  block.fault.condition = Condition::block_too_long;
 }
 
 }  // namespace
@@ -303,6 +314,10 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
   block.begin = offset;
   block.next = offset + result.used;
   *newline = result.newline;
+  if (result.used > kLongestBlock) {
+    cut(block);
+    *newline = false;
+  }
   return true;
 }
 
@@ -311,7 +326,7 @@ bool BlockReader::refuse_long(const TextEntry& entry, uint64_t offset, Block& bl
   char chunk[512];
   uint64_t at = offset;
   *newline = false;
-  while (!*newline) {
+  while (!*newline && at - offset < kLongestBlock) {
     const long got = TextWindow::read(entry, at, chunk, sizeof chunk);
     if (got < 0) {
       failure_ = got;
@@ -328,6 +343,10 @@ bool BlockReader::refuse_long(const TextEntry& entry, uint64_t offset, Block& bl
   block.fault.condition = Condition::block_too_long;
   block.begin = offset;
   block.next = at;
+  if (at - offset > kLongestBlock) {
+    cut(block);
+    *newline = false;
+  }
   return true;
 }
 
@@ -337,7 +356,8 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
   Condenser condenser(buffer, window_.capacity(), *rules_, semicolon_of(entry));
   uint64_t at = offset;
   *newline = false;
-  for (bool open = true; open;) {
+  bool open = true;
+  while (open && at - offset <= kLongestBlock) {
     const long got = TextWindow::read(entry, at, chunk, sizeof chunk);
     if (got < 0) {
       failure_ = got;
@@ -359,6 +379,10 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
   }
   block.begin = offset;
   block.next = at;
+  if (at - offset > kLongestBlock) {
+    cut(block);
+    *newline = false;
+  }
   return true;
 }
 

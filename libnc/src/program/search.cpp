@@ -6,6 +6,7 @@
 
 #include "alarm/condition.hpp"
 #include "program/cursor.hpp"
+#include "program/longest_block.hpp"
 #include "program/store.hpp"
 
 namespace nc {
@@ -81,7 +82,15 @@ class HeadScanner {
     head->blank = block.percent || (block.empty && !block.has_o && !block.has_n && block.skip == 0 && !block.has_fault);
     next_ = block.next;
     line_ = block.next_line;
+    if (block.next - block.begin >= kLongestBlock && !block.percent) pass_over_line();
     return true;
+  }
+
+  /// Behind a block that was cut because it is too long: what is left of its line is no block.
+  void pass_over_line() {
+    pass_over(true);
+    next_ = offset();
+    p_ = end_;
   }
 
   bool more() {
