@@ -12,6 +12,7 @@ namespace {
 // Between two calls a reset of an endless GOTO is seen, and a hold while something is planned: one takes some milliseconds at most.
 constexpr std::uint32_t kBudget = 256;
 constexpr unsigned kCallsPerStep = 8;
+constexpr std::chrono::milliseconds kLongRead{100};  // a search for a number goes through gigabytes of a program in one step
 
 const char* status_text(nc_status status) {
   switch (status) {
@@ -58,7 +59,12 @@ void Feeder::set_job(ControlJob job) {
   job_ = std::move(job);
 }
 
+bool Feeder::reads_too_long() const {
+  return (leaves_.load(std::memory_order_relaxed) || scan_->reset_waits()) && std::chrono::steady_clock::now() - step_began_ > kLongRead;
+}
+
 void Feeder::step() {
+  step_began_ = std::chrono::steady_clock::now();
   seen_ = scan_->snapshot();
   take_events();
   feed();

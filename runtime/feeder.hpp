@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -106,6 +107,10 @@ class Feeder {
 
   // One period of the feeder: events, feeding, a reset that waits, commands.
   void step();
+  // Whether this step has read for so long that a reset, or the end of the control, does not wait for it any more. Feeder thread.
+  bool reads_too_long() const;
+  // The control ends. Any thread.
+  void leave() { leaves_.store(true, std::memory_order_relaxed); }
 
   // ---- operator's thread (the same as Scan::post) ----
   bool post(const Command& command) { return commands_.push(command); }
@@ -204,6 +209,8 @@ class Feeder {
   const unsigned systems_;
   NcPort* nc_;
   Scan* scan_;
+  std::atomic<bool> leaves_{false};
+  std::chrono::steady_clock::time_point step_began_{};
   EventSink* sink_ = nullptr;
   PathSink* path_sink_ = nullptr;
   Printer printer_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A feed hold that waits for no other command. Any thread asks for it; the scan takes what was asked for in its next run, and answers when its snapshot shows it.
+// A feed hold that waits for no other command. Any thread asks for it; the scan takes what was asked for in its next run, answers when its snapshot shows it, and
+// notes when what it holds has come to rest: who asks later finds that it has, whatever has been started since, and by whom.
 //
 // Feed holds are counted, and a command that moves something carries the count of the moment in which it was asked for (Command::holds). So one that waits for
 // its turn while a hold comes is refused by the scan, wherever it waits: nothing moves by what was asked for before the last hold.
@@ -36,6 +37,12 @@ class HoldDoor {
       if ((systems >> s & 1u) != 0 && answered_[s].load(std::memory_order_acquire) < number) return false;
     return true;
   }
+  // The axes of these part systems have been at rest behind the hold, or have been started before they were.
+  bool has_stood(std::uint64_t number, std::uint32_t systems) const noexcept {
+    for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s)
+      if ((systems >> s & 1u) != 0 && stood_[s].load(std::memory_order_acquire) < number) return false;
+    return true;
+  }
 
   // ---- the scan, NC_RT ----
   // The part systems that are to be held.
@@ -53,6 +60,13 @@ class HoldDoor {
     for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s)
       if (answered_[s].load(std::memory_order_relaxed) != taken_[s]) answered_[s].store(taken_[s], std::memory_order_release);
   }
+  // The part systems whose rest behind a hold has not been noted.
+  std::uint32_t braking() const noexcept {
+    std::uint32_t systems = 0;
+    for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) systems |= stood_[s].load(std::memory_order_relaxed) != taken_[s] ? 1u << s : 0;
+    return systems;
+  }
+  void stands(unsigned system) noexcept { stood_[system].store(taken_[system], std::memory_order_release); }
 
  private:
   static void raise(std::atomic<std::uint64_t>* to, std::uint64_t number) noexcept {
@@ -61,7 +75,7 @@ class HoldDoor {
   }
 
   std::atomic<std::uint64_t> asked_{0};
-  std::array<std::atomic<std::uint64_t>, NC_MAX_SYSTEMS> wanted_{}, answered_{};  // by part system, numbers of requests
+  std::array<std::atomic<std::uint64_t>, NC_MAX_SYSTEMS> wanted_{}, answered_{}, stood_{};  // by part system, numbers of requests
   std::array<std::uint64_t, NC_MAX_SYSTEMS> taken_{};
 };
 

@@ -343,6 +343,8 @@ Answer Runtime::await_hold(std::uint64_t number, unsigned system) {
   return Answer::kDone;
 }
 
+bool Runtime::has_stood(std::uint64_t number, unsigned system) const { return scan_->hold_door().has_stood(number, systems_of(system, config_.nc.system_count)); }
+
 Answer Runtime::execute(Command command) {
   if (const std::uint64_t hold = command.kind == CommandKind::kFeedHold ? ask_hold(command.system) : 0; hold != 0) return await_hold(hold, command.system);
   command.holds = std::min(command.holds, holds());

@@ -94,6 +94,10 @@ class Runtime {
   StartGate* start_gate() const { return gate_; }
   // True for a part program that is selected, or that will be selected again after MDI: its entry in the store must stay. Feeder thread.
   bool remembers(unsigned file) const { return feeder_->remembers(file); }
+  // For who gives the control its texts: nothing more is to be read of them in this step of the feeder (Feeder::reads_too_long()). Feeder thread.
+  bool reads_too_long() const { return feeder_->reads_too_long(); }
+  // The control ends, and nobody waits any more for what the feeder reads. Any thread.
+  void leave() { feeder_->leave(); }
 
   // ---- operator ----
   // Hands over the command and waits for the answer; on virtual time it calls step() meanwhile. One that moves something is taken back by a feed hold that comes
@@ -104,6 +108,8 @@ class Runtime {
   std::uint64_t ask_hold(unsigned system);
   // Waits until the scan has done it. Any thread.
   Answer await_hold(std::uint64_t number, unsigned system);
+  // Whether the axes have been at rest behind it, also where they move again. Any thread.
+  bool has_stood(std::uint64_t number, unsigned system) const;
   // The feed holds that have been asked for so far (Command::holds); the part systems of which one has come since it was so many, one bit each. Any thread.
   std::uint64_t holds() const { return scan_->hold_door().asked(); }
   std::uint32_t held_since(std::uint64_t holds) const { return scan_->hold_door().asked_since(holds); }

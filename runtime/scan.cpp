@@ -192,6 +192,14 @@ void Scan::answer_commands() noexcept {
   for (unsigned n = 0; n < answered_count_; ++n) (void)answers_.push(answered_[n]);
   answered_count_ = 0;
   hold_door_.answer();
+  const std::uint32_t braking = hold_door_.braking();
+  for (unsigned s = 0; braking != 0 && s < systems_; ++s)
+    if ((braking >> s & 1u) != 0 && stands(s)) hold_door_.stands(s);
+}
+
+bool Scan::stands(unsigned system) const noexcept {
+  const nc_axes& velocity = out_[system].velocity;
+  return out_[system].state != NC_STATE_RUNNING && std::all_of(std::begin(velocity.v), std::end(velocity.v), [](double v) { return v == 0; });
 }
 
 // The part systems that a command names, one bit each; 0 = the part system does not exist.
@@ -398,6 +406,8 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by, std::uint32_
   }
   start_pulse_ |= starts;
   hold_request_ &= ~starts;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((starts & hold_door_.braking()) >> s & 1u) hold_door_.stands(s);  // what is started behind a hold, before the axes stand, ends it
   for (unsigned s = 0; s < systems_; ++s) {
     if ((systems >> s & 1u) == 0) continue;
     start_by_[s] = by;

@@ -326,6 +326,7 @@ class Scan {
   std::uint32_t active_systems() const noexcept;
   std::uint32_t in_state(std::uint8_t state) const noexcept;
   bool at_rest() const noexcept;
+  bool stands(unsigned system) const noexcept;
   void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false, Asker by = Asker::kConsole) noexcept;
   void settle(Asked asked, Answer answer, Asker by) noexcept;
   void name_axis_away(unsigned system) noexcept;

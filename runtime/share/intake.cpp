@@ -489,8 +489,10 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   }
 }
 
-bool Intake::is_reached(const Pending& pending, const Machine::State& state) const {
-  return reached(pending.request, state, pending.runs, [&](unsigned s) { return pending.arrival.hold != 0 && moved_[s] >= pending.arrival.hold; });
+bool Intake::is_reached(const Pending& pending, const Machine::State& state) {
+  const std::uint64_t hold = pending.arrival.hold;
+  if (hold != 0 && machine_.has_stood(hold, pending.request.system == kEverySystem ? kAllSystems : pending.request.system)) return true;
+  return reached(pending.request, state, pending.runs, [&](unsigned s) { return hold != 0 && moved_[s] >= hold; });
 }
 
 // Whether a feed hold has come behind a start, which has then not begun, or stands already.

@@ -57,6 +57,8 @@ class Machine {
   // A feed hold that waits for no other command, from any thread: its number, 0 when it cannot be given so. And until the machine has done it.
   virtual std::uint64_t hold_at_once(unsigned /*system*/) { return 0; }
   virtual Answer await_hold(std::uint64_t /*number*/, unsigned /*system*/) { return Answer::kDone; }
+  // Whether the axes have been at rest behind it, also where they move again since.
+  virtual bool has_stood(std::uint64_t /*number*/, unsigned /*system*/) { return false; }
   // The feed holds that have been asked for so far, whoever has; the part systems of which one has come since it was so many. Any thread.
   virtual std::uint64_t holds() { return 0; }
   virtual std::uint32_t held_since(std::uint64_t /*holds*/) { return 0; }
@@ -145,7 +147,7 @@ class Intake {
   Verdict hold_without_place(const Request& request, Way way, const Now& now, const Arrival& arrival);
   Verdict execute(const Request& request, const Arrival& arrival);
   Answer give(const RequestRow& row, const Request& request, const Arrival& arrival);
-  bool is_reached(const Pending& pending, const Machine::State& state) const;
+  bool is_reached(const Pending& pending, const Machine::State& state);
   bool is_held(const Pending& pending);
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;

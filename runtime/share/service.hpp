@@ -33,6 +33,7 @@ class RuntimeMachine final : public Machine {
   Answer execute(const Command& command) override { return runtime_.execute(command); }
   std::uint64_t hold_at_once(unsigned system) override { return runtime_.ask_hold(system); }
   Answer await_hold(std::uint64_t number, unsigned system) override { return runtime_.await_hold(number, system); }
+  bool has_stood(std::uint64_t number, unsigned system) override { return runtime_.has_stood(number, system); }
   std::uint64_t holds() override { return runtime_.holds(); }
   std::uint32_t held_since(std::uint64_t holds) override { return runtime_.held_since(holds); }
   Answer load_mdi(unsigned system, const std::string& blocks) override;

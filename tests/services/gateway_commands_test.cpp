@@ -149,6 +149,7 @@ TEST_F(GatewayCommands, AStartBehindAHoldIsNotHeldByIt) {
   (void)answer_to(hold - 1);  // behind it the hold has its turn
   usleep(50000);
   EXPECT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_RUNNING);
+  EXPECT_EQ(text_of(answer_to(hold).text), "") << "the axes have stood behind it";
 }
 
 // The same with a start of the other way, which may have its turn before the hold: both are done.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of 2 GiB from a client to its place, its check and its start. It takes minutes and 2 GiB of the disk, so it runs where NC_LARGE_PROGRAM says how many MiB.
+// And one of more gigabytes, none of which are on the disk.
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -67,6 +68,29 @@ TEST_F(LargeProgram, TwoGigabytesAreStreamed) {
   ASSERT_EQ(client.outcome("reset"), "");
   EXPECT_LT(most_memory() - before, 200e6) << "nor while it runs";
   std::printf("%.0f MB more than before, %llu blocks in 2 s\n", (most_memory() - before) / 1e6, static_cast<unsigned long long>(report["blocks"].get<std::uint64_t>()));
+}
+
+class VastProgram : public LargeProgram {
+ protected:
+  std::string check_text() override { return "check = \"off\"\nprogram_mb = 100000\n"; }
+};
+
+// The feeder looks for a program inside the text, which takes longer than a reset may. The hold waits for nothing, and the control ends as soon.
+TEST_F(VastProgram, AResetDoesNotWaitForASearchInIt) {
+  write_program("vast.nc", "O1\nG1 X50. F60.\nM98 P77\n");
+  std::filesystem::resize_file(in_programs("vast.nc"), std::uintmax_t{32} << 30);
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "auto"}}), "");
+  for (unsigned n = 0; n < 2; ++n) {
+    ASSERT_EQ(client.outcome("select", {{"name", "vast.nc"}}), "");
+    ASSERT_EQ(client.outcome("start"), "");
+    EXPECT_EQ(client.outcome("hold"), "");
+    EXPECT_EQ(client.outcome("reset"), "");
+    EXPECT_EQ(client.call("alarms")["reply"]["alarms"], Json::array());
+  }
+  ASSERT_EQ(client.outcome("start"), "");
+  runtime_->leave();
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ class LocalMachine : public testing::Test {
     ASSERT_NE(runtime_, nullptr);
     programs_ = std::make_unique<rt::share::ProgramTable>(static_cast<nc_dialect>(config_.nc.dialect));
     files_ = std::make_unique<tools::ProgramFiles>(config_.programs_folder(), config_.program_text);
+    files_->set_stop([this] { return runtime_->reads_too_long(); });
     files_->attach(runtime_->control());
     runtime_->set_program_loader([this](const std::string& name, unsigned* file, std::string* why) {
       const std::string path = config_.programs_folder() + "/" + name;

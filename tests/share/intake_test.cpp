@@ -32,6 +32,8 @@ struct FakeMachine final : Machine {
     awaited.push_back(number);
     return answer;
   }
+  std::uint64_t stood = 0;  // the last hold behind which the axes have been at rest
+  bool has_stood(std::uint64_t number, unsigned) override { return number <= stood; }
   std::uint64_t holds() override { return held.size(); }
   std::uint32_t held_since(std::uint64_t count) override {
     std::uint32_t systems = 0;
@@ -449,6 +451,21 @@ TEST_F(IntakeRules, AHoldIsDoneWhereAStartBehindItGoesOn) {
   acks_.clear();
   intake_.tick(now_, &acks_);
   EXPECT_TRUE(acks_.empty()) << "that start was before this hold";
+}
+
+// The same where somebody else has started it, by the panel or the console, of which the intake knows nothing: the axes have stood.
+TEST_F(IntakeRules, AHoldIsDoneWhereTheAxesHaveStoodBehindIt) {
+  machine_.now.run_state[0] = NC_STATE_RUNNING;
+  const Request hold = request(RequestKind::kFeedHold, 1, "other");
+  const Arrival arrival = intake_.arrived(hold, now_);
+  intake_.take(hold, now_, &acks_, Way::kGateway, arrival);
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty()) << "on its way to rest";
+  machine_.stood = arrival.hold;
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kDone));
 }
 
 TEST_F(IntakeRules, AHoldIsTakenUnderANameInUse) {

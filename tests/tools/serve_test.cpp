@@ -201,7 +201,14 @@ TEST_F(ServeTest, TheSignalStopsAMotionOnItsPathAndTheOutputsAreSafe) {
       signal = SIGTERM;
     }
   };
-  options.leave = [&] { left = true; };
+  bool stops = false;
+  options.leave = [&] {  // as where a client's command waits for a disk
+    left = true;
+    for (unsigned n = 0; n < 3000 && !stops; ++n) {
+      stops = runtime->snapshot().system[0].nc.state == NC_STATE_HOLD;
+      usleep(1000);
+    }
+  };
   EXPECT_TRUE(nc::tools::serve(runtime.get(), options));
   const nc::rt::Snapshot end = runtime->snapshot();
   EXPECT_TRUE(end.system[0].nc.distance_zero);
@@ -212,6 +219,7 @@ TEST_F(ServeTest, TheSignalStopsAMotionOnItsPathAndTheOutputsAreSafe) {
   runtime->stop();
   EXPECT_TRUE(machine->stopped());
   EXPECT_TRUE(left);
+  EXPECT_TRUE(stops) << "the axes do not go on until the clients have left";
   EXPECT_NE(printed().find("end: feed hold\nend: at rest"), std::string::npos) << printed();
 }
 

@@ -136,6 +136,7 @@ int Daemon::load_program() {
   std::string error;
   files_.set_external(config_.external_folder());
   files_.set_remembered([this](unsigned file) { return runtime_->remembers(file); });
+  files_.set_stop([this] { return runtime_->reads_too_long(); });
   files_.set_report([](const std::string& why) { warn(rt::valid_utf8(why)); });
   files_.attach(runtime_->control());
   runtime_->set_program_refresh([this] { files_.look_again(runtime_->control()); });

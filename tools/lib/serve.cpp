@@ -102,10 +102,13 @@ class Service {
     return false;
   }
 
-  // Ends with feed hold, waiting for rest, and reset, so that the axes stop on their path and not because the drives lose their enable signal.
+  // Ends with feed hold, waiting for rest, and reset, so that the axes stop on their path and not because the drives lose their enable signal. The first hold waits for
+  // nobody: until the commands of clients have ended some time may go by.
   bool end() {
     say("end: feed hold");
     notify_.send("STOPPING=1\nSTATUS=coming to rest");
+    (void)runtime_.execute(CommandKind::kFeedHold);
+    runtime_.leave();
     if (options_.leave) options_.leave();
     runtime_.execute(CommandKind::kEnd);
     const bool rest = wait_for([](const Snapshot& now) {

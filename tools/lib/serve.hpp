@@ -17,7 +17,7 @@ struct ServeOptions {
   const volatile std::sig_atomic_t* signal = nullptr;  // the service ends when this is not 0; set by the handler of signals
   // Called at each look (every 5 ms), in the thread of serve().
   std::function<void()> look;
-  // Called once before the machine is brought to rest: no command may come after it.
+  // Called once, when the axes have been told to stop, and before the end: no command may come after it.
   std::function<void()> leave;
   std::int64_t rest_ns = 20'000'000'000;  // time in which the axes must come to rest, and again for the reset
   std::FILE* out = stdout;                // gets one line for each event, for the journal
