@@ -111,6 +111,37 @@ def walk(plant):
         client.leave()
 
 
+# Arguments with which a request is well formed, where a value of its type is not enough.
+VALUES = {"number": 1.0, "whole": 1, "flag": True, "text": "X", "name": "none.nc", "data": "AAAA", "list": ["XX"]}
+ARGUMENTS = {"mode": {"mode": "auto"}, "programs.begin": {"sha256": 64 * "0"}, "tools.set": {"length": 1}, "life.set": {"used": 1}, "variables.set": {"value": 1},
+             "restart.find": {"line": 1}, "tables.import": {"toml": "[tool_offsets]\n1 = 1\n"}, "parameters.import": {"toml": "[parameters]\n1078 = 1\n"}}
+ON_ITS_OWN = ("rights.limit", "watch.begin")  # the one takes rights from all that come behind it, the other one sends updates
+
+
+def walk_services(plant):
+    """Each service on each topic that each right has: what the topic's right is not enough for is refused, and the refusal names the right that it takes."""
+    refused = 0
+    for right in RIGHTS:
+        client = Client(plant, plant.identity(right), f"{right}@walks")
+        topics = {topic: name for topic, name in zip(TOPICS, RIGHTS) if name in ("view", right)}
+        for topic in topics:
+            client.heard(topic, f"{right} is heard on {topic}")
+        services = [s for s in client.call(TOPICS[0], "services")["services"] if s["name"] not in ON_ITS_OWN]
+        for topic, name in topics.items():
+            wrong = []
+            for service in services:
+                arguments = {member["name"]: VALUES[member["type"]] for member in service["request"] if member["required"]}
+                _, refusal, _, text, _ = client.answer(client.send(topic, service["name"], **{**arguments, **ARGUMENTS.get(service["name"], {})}))
+                rights = {service["right"], service["or_right"] or service["right"]}
+                allowed = "view" in rights or name in {r.replace(" ", "") for r in rights}
+                good = refusal != "no right" if allowed else refusal == "no right" and all(r in text["text"] for r in rights)
+                wrong += [] if good else [(service["name"], refusal, text)]
+                refused += not allowed
+            check(len(services) > 60 and not wrong, f"each of {len(services)} services on {topic} with the right {right} is let or refused as the table says {wrong[:3]}")
+        client.leave()
+    check(refused > 200, f"{refused} of them are refused")
+
+
 def check_rights(reply, right, what):
     """Names what the identity may, and nothing that only others may."""
     named = [name.replace(" ", "") for name in reply()["rights"]]
@@ -295,6 +326,7 @@ def secured_services(plant):
     gateway = plant.gateway(plant.identity("gateway"))
     gateway.wait_for("publishes .*takes commands", "the secured gateway publishes")
     walk(plant)
+    walk_services(plant)
     by_ncctl(plant)
     viewer = Client(plant, plant.identity("view"), "view@watches")
     viewer.heard("nc_ServiceView", "a viewer")
