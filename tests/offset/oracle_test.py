@@ -200,17 +200,17 @@ def judge_profile(contour, result):
     bottom = -contour.level
     for (first, behind), (_, radius) in zip(contour.spans, contour.cuts):
         moves = [(block, move) for block, move, low, high in result.moves if first <= block < behind and low <= bottom + 1e-6 and high >= bottom - 1e-6]
-        paths = [(block, LineString(move.points())) for block, move in moves if move.length() > 1e-9]
         if contour.cross is not None:
-            bad = judge_change(contour, moves, paths)
+            bad = judge_change(contour, moves)
         else:
+            paths = [(block, LineString(move.points())) for block, move in moves if move.length() > 1e-9]
             bad = judge_gouge(paths, contour.wall(), radius) or judge_uncut(contour, together(paths), radius, contour.inside, contour.elements, 0)
         if bad:
             return bad
     return None
 
 
-def judge_change(contour, moves, paths):
+def judge_change(contour, moves):
     """A change of side: before it and behind it the contour is cut like any other. The two blocks beside it end and begin on their own offset curves, and
     where these meet is no wall for them (12.4.2, 12.4.5)."""
     r, elements = contour.radius, contour.elements
@@ -222,8 +222,12 @@ def judge_change(contour, moves, paths):
     before, behind = contour.lines_of[a], contour.lines_of[b]
     if elements[a].length() < NO_DIRECTION:  # the way in is what has a direction
         before = 0
+        lengthened = moves
+    else:
+        lengthened = with_lengthened_start(moves, before, elements[a], r)
     if elements[b].length() < NO_DIRECTION:
         behind = contour.spans[0][1]
+    paths = [(block, LineString(move.points())) for block, move in lengthened if move.length() > 1e-9]
     beside = [each for each in paths if before <= each[0] <= behind]
     others = [each for each in paths if not before <= each[0] <= behind]
     rest = [e.points() for i, e in enumerate(elements) if not a <= i <= b and e.length() > TOLERANCE]  # of a shorter one the ends are those of its neighbours
@@ -239,6 +243,19 @@ def judge_change(contour, moves, paths):
         return f"off the offset curve by {off:.6f} mm at the change of side"
     return (judge_uncut(contour, together([each for each in paths if each[0] <= before]), r, contour.inside, elements[:a], 0)
             or judge_uncut(contour, together([each for each in paths if each[0] >= behind]), r, not contour.inside, elements[b + 1:], -1))
+
+
+def with_lengthened_start(moves, block, element, r):
+    """The moves with the one that leads up to this block's offset curve along its tangent as a move of the block. At an outer corner beside an arc the control counts it to the block in front (12.4.1), but of
+    a line, and where the offset curves meet, it is a part of the block behind, which is lengthened by it."""
+    in_front = max((k for k, (of, move) in enumerate(moves) if of < block and move.length() > 1e-9), default=None)
+    if in_front is None or moves[in_front][1].center:
+        return moves
+    move, ((x, y), (ux, uy)) = moves[in_front][1], element.at(0)
+    vx, vy = move.end[0] - move.start[0], move.end[1] - move.start[1]
+    beside, along = (move.end[0] - x, move.end[1] - y), (vx * ux + vy * uy) / move.length()
+    lengthens = abs(math.hypot(*beside) - r) < 1e-5 and abs(beside[0] * ux + beside[1] * uy) < 1e-5 and along > 1 - 1e-9
+    return [*moves[:in_front], (block, move), *moves[in_front + 1:]] if lengthens else moves
 
 
 def ends_beside(moves, last, r):
@@ -383,8 +400,8 @@ class Noses(Contour):
 
 
 # Once judged wrongly: a change of side onto an arc of two radii, which the path behind it touches at the one and not at the other; a block that lies behind a mouth narrower than the tool but for its end; a start
-# that comes nearer than the radius by the last digit of its words. And a whole turn on the way in to a circle, which was taken for the turn of a way out by a control once.
-ONCE_WRONG = [20085150, 20171280, 40011606, 40001130]
+# that comes nearer than the radius by the last digit of its words; the lengthened start of an arc in front of a change of side. And a whole turn on the way in to a circle, which was taken for the turn of a way out by a control once.
+ONCE_WRONG = [20085150, 20171280, 40011606, 60097302, 40001130]
 
 
 def judge_without_check(contours, without, wrong):
