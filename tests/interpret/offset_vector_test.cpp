@@ -126,17 +126,46 @@ TEST(CornerTurn, DgshapeAlarms) {
   }
 }
 
+// HX 13.2.1, DGSHAPE G39: behind the start there is no path yet that an arc could go round, but by type B. The words of G39 are the way of the block behind, so the start ends as it does in front of that.
+TEST(CornerTurn, BehindAStartLeadsToItsVector) {
+  for (const nc_dialect family : {NC_DIALECT_HX, NC_DIALECT_DGSHAPE}) {
+    const std::string head = family == NC_DIALECT_DGSHAPE ? "%\n" : "(at the head)\n";
+    const char* const type = family == NC_DIALECT_DGSHAPE ? "startup" : "3128";
+    const auto path = [&](const char* start_type, const char* text) {
+      Bench bench(family);
+      bench.tool(1, 3).tool(1, 3, NC_TOOL_RADIUS).param(type, start_type);
+      const Outcome run = bench.run(head + text + "\nM02");
+      Path moves = run.path();
+      for (std::string& move : moves) move = move.substr(0, move.find(" F"));
+      if (!run.alarm.empty()) moves.push_back(run.alarm + " L" + std::to_string(run.alarm_line));
+      return moves;
+    };
+    const char* const a = family == NC_DIALECT_DGSHAPE ? "A" : "0";
+    const char* const b = family == NC_DIALECT_DGSHAPE ? "B" : "1";
+    const char* const outer = "G01 G42 D1 X10.0 F100\nG39 X10.0 Y10.0\nX10.0 Y10.0\nX0";
+    EXPECT_EQ(path(a, outer), (Path{"line 13 0 0", "line 13 13 0", "line 0 13 0"}));
+    EXPECT_EQ(path(b, outer), (Path{"line 10 -3 0", "ccw 13 0 0 c10,0", "line 13 13 0", "line 0 13 0"}));
+    EXPECT_EQ(path(a, "G42 D1\nG01 X10.0 F100\nG39 X10.0 Y10.0\nX10.0 Y10.0\nX0"), (Path{"line 13 0 0", "line 13 13 0", "line 0 13 0"})) << "the code alone waits for the move";
+    EXPECT_EQ(path(b, "G00 G42 D1 X10.0\nG01 G39 X10.0 Y10.0 F100\nX10.0 Y10.0\nX0"), (Path{"rapid 10 -3 0", "ccw 13 0 0 c10,0", "line 13 13 0", "line 0 13 0"})) << "the arc is a cut";
+    for (const char* either : {a, b}) {
+      EXPECT_EQ(path(either, "G01 G41 D1 X10.0 F100\nG39 X10.0 Y10.0\nX10.0 Y10.0\nX20.0"), (Path{"line 7 0 0", "line 7 13 0", "line 20 13 0"})) << "inside";
+      EXPECT_EQ(path(either, "G01 G42 D1 X10.0 F100\nG39 X11.0 Y10.0\nX10.0 Y10.0\nX0"), (Path{"NC-OFFSET-PATH L3"})) << "not the way of the block behind: the start is not driven either";
+      EXPECT_EQ(path(either, "G01 G42 D1 X10.0 F100\nG39 X20.0 Y0\nX20.0\nY10.0\nX0"), (Path{"line 10 -3 0", "line 23 -3 0", "line 23 13 0", "line 0 13 0"})) << "straight on";
+    }
+  }
+}
+
 // HX 13.2.1, DGSHAPE G39: the arc ends where its words lead to. Where the block behind leads elsewhere it would be cut, so the tool stops in front of the arc.
 TEST(CornerTurn, LeadsTheWayOfTheBlockBehind) {
   for (const nc_dialect family : {NC_DIALECT_HX, NC_DIALECT_DGSHAPE}) {
     Bench bench(family);
     bench.tool(1, 3).tool(1, 3, NC_TOOL_RADIUS);
     const std::string head = family == NC_DIALECT_DGSHAPE ? "%\n" : "(at the head)\n";
-    const auto corner = [&](const std::string& behind) { return bench.at(0, 0, 0).run(head + "F100\nG41 D1\nG01 X20.0\n" + behind + "\nM02"); };
+    const auto corner = [&](const std::string& behind) { return bench.at(0, 0, 0).run(head + "F100\nG41 D1\nG01 X10.0\nX20.0\n" + behind + "\nM02"); };
     for (const char* behind : {"G39 X0 Y-10.0\nY-10.0\nG40 X0", "G39 X20.0 Y-10.0\nX22.0 Y-10.0\nG40 X0", "G39 X0 Y-10.0\nZ1.0\nY-10.0\nG40 X0", "G39 X21.0 Y-10.0\nG02 X10.0 Y-10.0 R10.0\nG01 G40 X0"}) {
       const Outcome run = corner(behind);
       EXPECT_EQ(run.alarm, "NC-OFFSET-PATH") << behind;
-      EXPECT_EQ(run.alarm_line, 5u) << behind;
+      EXPECT_EQ(run.alarm_line, 6u) << behind;
       EXPECT_NE(run.alarm_detail.find("G39 goes round an outer corner with the words of the block behind it."), std::string::npos) << run.alarm_detail;
       ASSERT_FALSE(run.moves().empty());
       EXPECT_NEAR(run.moves().back().machine.v[0], 20, 1e-9) << "it stops in front of the arc";

@@ -405,12 +405,16 @@ void OffsetStage::intake_uncompensated(Held* held) {
   ++count_;
 }
 
-// The block `corner` asks for an arc at the end of the move at `index`. It goes at the feed of that move, and behind a rapid, which has none, at that of its own
-// block.
+// The block `corner` asks for an arc at the end of the move at `index`.
 void OffsetStage::bend_behind(uint32_t index, const Item& corner) {
-  Move& last = held_at(index).item.move;
-  last.comp.corner_arc = true;
+  held_at(index).item.move.comp.corner_arc = true;
   bend_ = {next_index(), nc_source(corner.source)};
+  feed_bend(index, corner);
+}
+
+// The arc goes at the feed of that move, and behind a rapid, which has none, at that of its own block.
+void OffsetStage::feed_bend(uint32_t index, const Item& corner) {
+  Move& last = held_at(index).item.move;
   if (last.kind != NC_MOVE_RAPID) return;
   last.feed_mm_min = corner.move.feed_mm_min;
   last.feed_mm_rev = corner.move.feed_mm_rev;
@@ -441,6 +445,20 @@ bool OffsetStage::look_at_step(const Held& held) {
   return !failed_;
 }
 
+// DGSHAPE G39 behind the start: the way that it names is that of the block behind, so the start ends as it does in front of such a block. Only a start of type B comes to a corner that an arc can go
+// round.
+void OffsetStage::turn_start(Section* start, const Held& turn) {
+  const Compensation& comp = turn.item.move.comp;
+  const Leg behind{unit({comp.vector[0], comp.vector[1]}), 0};
+  const nc::Turn corner = classify(start->end, behind, start->offset);
+  const bool goes_round = comp.type_b && (corner == nc::Turn::obtuse || corner == nc::Turn::acute);
+  start->joint = goes_round ? joint_corner_arc(start->end, behind, start->offset) : joint_at_start(start->end, behind, start->offset, false);
+  if (goes_round) feed_bend(start->index, turn.item);
+  start->jointed = start->commanded = true;
+  tail_ = start->joint.v[start->joint.n - 1];
+  turn_ = {true, true, start->index, tail_, nc_source(turn.item.source)};
+}
+
 // A command that does not move in the plane: its vector, if it gives one, holds from here on (M700 12.4.3
 // (4)).
 void OffsetStage::intake_command(Held* held) {
@@ -450,6 +468,11 @@ void OffsetStage::intake_command(Held* held) {
   Section* last = open();
   if (comp.corner_arc &&
       comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
+    if (last && last->start) {
+      turn_start(last, *held);
+      if (!failed_) ++count_;
+      return;
+    }
     close();
     if (failed_) return;
     const Vec2 vector = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));

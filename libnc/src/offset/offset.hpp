@@ -153,7 +153,9 @@ class OffsetStage {
   bool intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end);
   void intake_uncompensated(Held* held);
   void bend_behind(uint32_t index, const Item& corner);
+  void feed_bend(uint32_t index, const Item& corner);
   void intake_command(Held* held);
+  void turn_start(Section* start, const Held& turn);
   bool turn_fits(const Section& behind);
   void lead(Held* held, Vec2 vector);
   bool look_at_step(const Held& held);
