@@ -230,18 +230,11 @@ TEST(Interference, AMouthThatIsTooNarrowInFrontOfARoundChamber) {
   }
 }
 
-// The walls' vectors stand at right angles, which is not "more than 90 degrees" (2)(b): the groove is left uncut, wherever the part lies.
-TEST(Interference, AGrooveWithParallelWallsIsLeftUncut) {
-  const Path uncut = {"rapid -60 20 0", "line -60 5 0 F100", "line 5 5 0 F100", "line 60 5 0 F100", "line 60 20 0 F100"};
-  EXPECT_EQ(groove("0", "9.", "9.", "1").work(), groove("0", "9.", "9.", "1", -68.406, -127.58).work());
+// (2)(c): P153 with the avoidance, too, wherever the part lies.
+TEST(Interference, AGrooveWithParallelWallsIsAnAlarm) {
   for (const auto& [x, y] : {std::pair{0.0, 0.0}, {-68.406, -127.58}, {1000, -700}, {0.1, 33.333}, {-0.7, 1e-3}})
-    for (const char* const width : {"9.", "7.", "4."}) {
-      const Outcome run = groove("0", width, width, "1", x, y);
-      EXPECT_EQ(run.alarm, "") << x << ' ' << width;
-      ASSERT_EQ(run.moves().size(), uncut.size());
-      for (size_t i = 0; i < uncut.size(); ++i) EXPECT_NEAR(run.moves()[i].machine.v[1] - y, i == 0 || i == 4 ? 20 : 5, 1e-9) << x << ' ' << width;
-    }
-  EXPECT_EQ(groove("0", "9.", "9.", "0").alarm, "P153");
+    for (const char* const width : {"9.", "7.", "4."})
+      for (const char* const avoid : {"0", "1"}) EXPECT_EQ(groove("0", width, width, avoid, x, y).alarm, "P153") << x << ' ' << width;
 }
 
 // Where the amount at one of its two ends is larger than the radius inside of an arc there is no curve (12.4.6).

@@ -215,6 +215,28 @@ bool keeps_amount(const Chain& chain, unsigned i, unsigned j, Vec2 d, Vec2 from,
   return true;
 }
 
+// By how much the contour turns to the tool from the end of section i to the start of section j, in rad; away from it negative. Which way a corner turns classify() says, of a cusp, too.
+double turn_to_tool(const Chain& chain, unsigned i, unsigned j) {
+  double turn = 0;
+  for (unsigned k = i; k < j; ++k) {
+    const Leg& end = chain[k].end;
+    const Leg& begin = chain[k + 1].begin;
+    if (k > i) turn += std::copysign(1, chain[i].offset) * chain[k].sweep;
+    const Turn corner = classify(end, begin, chain[i].offset);
+    const double angle = std::atan2(std::abs(cross(end.u, begin.u)), dot(end.u, begin.u));
+    if (corner != Turn::straight) turn += corner == Turn::inner ? angle : -angle;
+  }
+  return turn;
+}
+
+// M700 12.4.8 alarm (2)(c): do the joints of sections i and j belong to a groove whose walls are parallel or go apart towards its bottom? The walls are the blocks in front of the first joint and behind
+// the last one, or, where that is its mouth, those between them.
+bool walls_do_not_close(const Chain& chain, unsigned i, unsigned j) {
+  const double half = kPi - kOneDirection;
+  if (j + 1 < chain.size() && turn_to_tool(chain, i, j + 1) >= half) return true;
+  return j > i + 1 && turn_to_tool(chain, i + 1, j) >= half;
+}
+
 // Could the tool stand somewhere along section k, with the contour from the start of section i to the end of section j around it? Asked at a few places: near its
 // ends a block between others is out of reach anyway. Places count from the end of section i.
 bool can_be_reached(const Chain& chain, unsigned k, unsigned i, unsigned j) {
@@ -420,14 +442,27 @@ bool stays_in_place(const Chain& chain, unsigned i, unsigned j) {
   return true;
 }
 
+// Do the joints of sections i and j lie at one place, as far as the last digit tells, since the contour has closed between them? Vectors of one place do not cross.
+bool has_closed(const Chain& chain, unsigned i, unsigned j, Vec2 d) {
+  if (j < i + 2 || norm(d) > enters_of(chain[j].inch)) return false;
+  Vec2 at;
+  bool away = false;
+  for (unsigned k = i + 1; k < j; ++k) {
+    at = at + chain[k].approach + chain[k].delta;
+    away = away || norm(at) > kAway_mm;
+  }
+  return away;
+}
+
 // Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
 // that has taken its place. `*crosses`: they do not go as they were.
 Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector,
                    unsigned* at, bool* crosses) {
   Section& before = (*chain)[i];
   Section& behind = (*chain)[j];
-  const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j), unsure_of(before.inch), j - i == kMaxSpan);
-  if (!crossing.found || (j == i + 1 && behind.part) || stays_in_place(*chain, i, j)) return Finding::none;
+  const Vec2 d = joint_distance(*chain, i, j);
+  const Crossing crossing = find_crossing(before.joint, behind.joint, d, unsure_of(before.inch), j - i == kMaxSpan);
+  if (!crossing.found || has_closed(*chain, i, j, d) || (j == i + 1 && behind.part) || stays_in_place(*chain, i, j)) return Finding::none;
   *crosses = true;
   *at = live;
   const Vec2 a = before.joint.v[crossing.before], b = behind.joint.v[crossing.behind];
@@ -448,9 +483,8 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   before.joint = whole_before;
   behind.joint = whole_behind;
   if (!before.avoid) return Finding::alarm;  // 12.4.8 alarm (1)
-  // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90
-  // degrees (2)(b).
-  if (one_sided || dot(a, b) < -kCosineNoise * norm(a) * norm(b)) return Finding::alarm;
+  // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90 degrees (2)(b), between parallel or widening walls (2)(c).
+  if (one_sided || dot(a, b) < -kCosineNoise * norm(a) * norm(b) || walls_do_not_close(*chain, i, j)) return Finding::alarm;
   const unsigned farthest = std::max(live + 1 + kReach, j + 1);
   for (unsigned target = j + 1; target <= farthest && target < chain->size(); ++target) {
     if (go_round(chain, live, target, j + 1, first_vector)) return Finding::none;
@@ -468,6 +502,7 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
     if (!(*chain)[i].vanished) continue;
     *at = i;
     bool done = false;
+    if (walls_do_not_close(*chain, i - 1, i)) return Finding::alarm;
     for (unsigned target = i + 1; target <= i + kReach && target < chain->size() && !done; ++target) {
       done = go_round(chain, live_at(*chain, i - 1), target, i + 1, first_vector);
     }
@@ -475,6 +510,11 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
       return Finding::alarm;
   }
   return Finding::none;
+}
+
+// "When interference check cannot be executed (1)" (M700 12.4.8): fewer than three of the five blocks that are read from the one in front of this section on move.
+bool too_few_move(const Chain& chain, unsigned i, const ChainStart& start) {
+  return i + 1 < chain.size() && chain[i + 1].block - (i == 0 ? start.block : chain[i - 1].block) >= kPreRead;
 }
 
 // M700 12.4.8 alarm (2)(c): a block that runs against its programmed direction between its vectors. The vectors of short blocks need not cross
@@ -485,13 +525,13 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
   if (!along_contour || !section.check) return Finding::none;
   const Vec2 from = start_vector(*chain, i, start.vector), to = section.joint.v[0];
   const bool given = section.commanded || (i == 0 ? start.commanded : !may_be_erased((*chain)[i - 1]));
-  if (given) {  // such a vector may lie anywhere; but no arc turns the other way round for it
+  if (given || too_few_move(*chain, i, start)) {  // such a vector may lie anywhere; but no arc turns the other way round for it
     *at = i;
     return arc_runs_backwards(section, from, to) ? Finding::alarm : Finding::none;
   }
   if (!leads_astray(section, from, to) || (i > 0 && stays_in_place(*chain, i - 1, i))) return Finding::none;
   *at = i;
-  if (!section.avoid || i == 0) return Finding::alarm;
+  if (!section.avoid || i == 0 || walls_do_not_close(*chain, i - 1, i)) return Finding::alarm;
   for (unsigned target = i + 1; target <= i + kReach && target < chain->size(); ++target)
     if (go_round(chain, live_at(*chain, i - 1), target, i + 1, start.vector)) return Finding::none;
   return Finding::alarm;

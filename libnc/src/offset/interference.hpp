@@ -141,7 +141,11 @@ struct ChainStart {
   Vec2 vector;
   bool commanded = false;  ///< it may lie anywhere
   bool erased = false;     ///< as ContourJoint::last_erased
+  uint32_t block = 0;      ///< Section::block of the block that ends there
 };
+
+/// Blocks that are read ahead, that of the first joint included (M700 12.4.1, 12.4.8).
+inline constexpr unsigned kPreRead = 5;
 
 /// Checks the joints of the chain against each other and repairs what may be repaired. An interference that blocks still to come may repair is left for the next call;
 /// `last_call` = sections below this number cannot wait any longer. On alarm *at is the section before which

@@ -185,7 +185,7 @@ OffsetStage::Held& OffsetStage::new_slot(uint32_t index, const Item& item) {
 
 void OffsetStage::reset() {
   chain_.clear();
-  count_ = first_ = released_ = blocks_ = 0;
+  count_ = first_ = released_ = blocks_ = chain_start_block_ = 0;
   mode_ = Mode::off;
   idle_blocks_ = connecting_ = 0;
   moved_ = failed_ = cancelled_ = lead_done_ = has_rest_ = false;
@@ -220,6 +220,7 @@ void OffsetStage::restore(const OffsetResume& resume) {
   comp_ = resume_.comp;
   if (!resume.active) return;
   idle_blocks_ = resume.idle_blocks;
+  chain_start_block_ = blocks_ - 1 - idle_blocks_;
   cancelled_ = resume.cancelled;
   memory_.restore(resume.contour);
   level_ = level_end_ = resume.level;
@@ -424,6 +425,7 @@ void OffsetStage::feed_bend(uint32_t index, const Item& corner) {
 // The tool goes from the vector in force to this one before the move.
 void OffsetStage::lead(Held* held, Vec2 vector) {
   held->has_lead = true;
+  chain_start_block_ = blocks_ - 1;
   held->lead_from = tail_;
   held->lead = tail_ = vector;
   held->lead_crosses = side_changed_;
@@ -774,6 +776,7 @@ void OffsetStage::release(unsigned sections) {
     held.commanded = start_commanded_ = section.commanded || !section.check;
     held.bound_next = i + 1 < chain_.size() && chain_[i + 1].bound;
     chain_start_ = joint.v[joint.n - 1];
+    chain_start_block_ = section.block;
     start_erased_ = joint.last_erased;
   }
   chain_.drop_front(sections);

@@ -92,7 +92,7 @@ class OffsetStage {
   /// Items held back while looking ahead over five blocks: macro statements between two movements are no blocks, but each of them has a mark.
   static constexpr unsigned kLookAheadItems = kHeld - 8;
   static constexpr unsigned kChain = 5;  ///< moving blocks that the interference check wants to see at once
-  static constexpr unsigned kLookAheadBlocks = 5;
+  static constexpr unsigned kLookAheadBlocks = kPreRead;
   /// This many blocks without movement close the contour (M700 12.4.2).
   static constexpr uint8_t kIdleLimit = 4;
 
@@ -187,7 +187,7 @@ class OffsetStage {
   Held& held_at(uint32_t index) { return held_[index % kHeld]; }
   Held& new_slot(uint32_t index, const Item& item);
   ContourMemory::State& contour_at(const Held& held) { return contour_[&held - held_]; }
-  ChainStart chain_start() const { return {chain_start_, start_commanded_, start_erased_}; }
+  ChainStart chain_start() const { return {chain_start_, start_commanded_, start_erased_, chain_start_block_}; }
   Section* open() { return chain_.empty() || chain_.back().jointed ? nullptr : &chain_.back(); }
 
   // Outlet: pop() (outlet.cpp).
@@ -217,6 +217,7 @@ class OffsetStage {
   Compensation comp_;    ///< of the last section
   Vec2 tail_;            ///< vector at the end of everything decided
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
+  uint32_t chain_start_block_ = 0;  ///< Section::block of the one that ends there
   Vec2 approach_;        ///< of the next section
   Turn turn_;
   Bend bend_;
