@@ -59,6 +59,45 @@ TEST(MacroInterrupt, TypeOneWithoutAMoveGoesOnInTheBlock) {
   EXPECT_EQ(run.var(100), 1);
 }
 
+// Whoever executes the items says with nc_position_set() how far the axes have come in the one that he has pulled last.
+TEST(MacroInterrupt, InTheMiddleOfAMoveTheProgramBeginsWhereTheAxesStand) {
+  Bench bench;
+  bench.add("O1000", "#100=#5001\n#101=#5002\nM99\n");
+  bench.add("O1001", "G91 G0 Z7.\nG90 M99\n");
+  const nc_axes middle = {{10, 10, 0}};
+  const auto stands = [&](const nc_item& item) { return is_move(item) && nc_position_set(bench.control(), 0, &middle) == NC_OK; };
+  const Outcome goes_on = interrupted(bench, "M96 P1000\nG2 X20. I10. F500\nG0 Y5.\nM30", 2, stands);
+  EXPECT_EQ(goes_on.path(), (Path{"cw 20 0 0 c10,0 F500", "rapid 20 5 0"}));
+  EXPECT_EQ(goes_on.var(100), 10);
+  EXPECT_EQ(goes_on.var(101), 10);
+  EXPECT_EQ(interrupted(bench.at(0, 0, 0), "M96 P1001\nG2 X20. I10. F500\nG0 Y5.\nM30", 2, stands).path(), (Path{"rapid 10 10 7", "rapid 10 5 7"}));
+}
+
+// As on the machine.
+TEST(MacroInterrupt, AThreadIsCutToItsEnd) {
+  Bench bench;
+  bench.add("O1001", "G91 G0 Z7.\nG90 M99\n");
+  const nc_axes middle = {{10, 0, 0}};
+  const auto stands = [&](const nc_item& item) { return is_move(item) && nc_position_set(bench.control(), 0, &middle) == NC_OK; };
+  EXPECT_EQ(interrupted(bench, "S100 M96 P1001\nG33 X20. F1.\nG0 Y5.\nM30", 2, stands).path(), (Path{"thread 20 0 0 F0", "rapid 20 0 7", "rapid 20 5 7"}));
+}
+
+// A position that is set in the middle of a move counts for a reset there, too, and not for the items behind it.
+TEST(MacroInterrupt, APositionInTheMiddleOfAMoveIsThatOfAReset) {
+  Bench bench;
+  const nc_axes middle = {{10, 0, 0}};
+  Step step;
+  bench.start("G0 X20.\nX30.\nM30");
+  while (bench.pull(&step) == NC_OK && !is_move(step.item)) continue;
+  ASSERT_EQ(nc_position_set(bench.control(), 0, &middle), NC_OK);
+  while (bench.pull(&step) == NC_OK && !is_move(step.item)) continue;
+  EXPECT_EQ(step.item.u.move.machine_start.v[0], 20);
+  ASSERT_EQ(nc_position_set(bench.control(), 0, &middle), NC_OK);
+  ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+  while (bench.pull(&step) == NC_OK && !is_move(step.item)) continue;
+  EXPECT_EQ(step.item.u.move.machine_start.v[0], 10);
+}
+
 TEST(MacroInterrupt, TypeTwoCompletesTheBlock) {  // #1113
   Bench bench;
   bench.add("O1000", "G0 Z7.\nM99\n");

@@ -228,6 +228,31 @@ TEST_F(EventProperty, AMacroInterruptComesInBoth) {
   EXPECT_NEAR(motion.end.v[0], trace.end.v[0], 1e-6);
 }
 
+// M700 13.12, type 1: the tool stops at once, and a dwell is interrupted; without a move in the interrupt program they go on from there.
+TEST_F(EventProperty, AnEventAtATimeComesInTheMiddleOfABlock) {
+  const std::string main = "G1 F600\nM96 P9\nG2 X20. I10.\nG4 P2000\nG1 X30.\n#110=#3001\nM97\nM30\n";
+  const std::string pulses =
+      R"({"clock": "1970-01-01T00:00:00", "events": [{"when": {"seconds": 1}, "signals": {"macro_interrupt": 1}}, {"when": {"seconds": 1.1}, "signals": {"macro_interrupt": 0}},
+        {"when": {"seconds": 2}, "signals": {"macro_interrupt": 1}}, {"when": {"seconds": 2.1}, "signals": {"macro_interrupt": 0}},
+        {"when": {"seconds": 4}, "signals": {"macro_interrupt": 1}}]})";
+  write(main + "O9\n#100=#100+1\n#[100+#100]=#5041\nM99\n", pulses);
+  const Effect goes_on = pulled();
+  ASSERT_TRUE(goes_on.ran) << goes_on.error;
+  EXPECT_EQ(goes_on.variables.at(100), 3);
+  EXPECT_NEAR(goes_on.variables.at(101), 10 - 10 * std::cos(1), 1e-3);
+  EXPECT_NEAR(goes_on.variables.at(102), 10 - 10 * std::cos(2), 1e-3);
+  EXPECT_NEAR(goes_on.variables.at(103), 20, 1e-9);
+  EXPECT_NEAR(goes_on.variables.at(110), 1000 * (M_PI + 2 + 1), 2) << "nothing has been executed twice";
+  EXPECT_NEAR(goes_on.end.v[0], 30, 1e-9);
+  write(main + "O9\nG91 G1 Z5.\nG90 M99\n", pulses);
+  const Effect lost = pulled();
+  ASSERT_TRUE(lost.ran) << lost.error;
+  EXPECT_NEAR(lost.end.v[1], 10 * std::sin(1), 1e-3) << "the rest of the arc is lost";
+  write(main + "O9\nM99\n", R"({"events": [{"when": {"seconds": 1}, "signals": {"reset": 1}}]})");
+  const Effect reset = pulled();
+  EXPECT_NEAR(reset.end.v[1], 10 * std::sin(1), 1e-3) << reset.error;
+}
+
 // The item at which a reset comes is not executed, and nothing behind it is read.
 TEST_F(EventProperty, AResetLeavesTheAxesAtTheEndOfTheBlockBefore) {
   write("G91\nG1 X5. F3000\nX5.\n#100=1\nX5.\nM30\n", R"({"events": [{"when": {"line": 3}, "signals": {"reset": 1}}]})");

@@ -151,7 +151,7 @@ TEST(Clock, GoesByLengthOverFeedRapidsDwellsAndReads) {
   world.dwell(false, 1.5);
   EXPECT_DOUBLE_EQ(world.answer(0).power_on_ms, 12100);
   world.dwell(true, 5);  // the spindle stands: no time passes
-  world.spindle(300);
+  world.clock().speed(300);
   world.dwell(true, 5);  // 1 s
   EXPECT_EQ(world.answer(NC_SYNC_CLOCK).clock_ms, 13100);
   EXPECT_EQ(world.answer(NC_SYNC_CLOCK).clock_ms, 13101) << "a read lets 1 ms pass";
@@ -161,6 +161,56 @@ TEST(Clock, GoesByLengthOverFeedRapidsDwellsAndReads) {
   synchronous.feed_mm_rev = 0.5;  // at 300/min: 150 mm/min, 12 s
   world.execute(&synchronous);
   EXPECT_EQ(world.answer(NC_SYNC_INPUT).clock_ms, 25102);
+}
+
+// M700 10.3, 10.4: the speed of the spindle follows the place, within the clamp.
+TEST(Clock, AFeedPerRevolutionGoesByTheSurfaceSpeedAndItsClamp) {
+  FakeItems items;
+  const auto control = [](nc_control_index index, double value, uint32_t mask, uint32_t bits) {
+    nc_action action = {};
+    action.kind = NC_ACTION_CONTROL;
+    action.index = index;
+    action.value = value;
+    action.mask = mask;
+    action.bits = bits;
+    return action;
+  };
+  PathClock clock;
+  nc_move along = items.line(1, {{50, 0, 0}}, {{50, 10, 0}}, 0).u.move, across = items.line(1, {{10, 0, 0}}, {{50, 0, 0}}, 0).u.move;
+  along.feed_mm_rev = across.feed_mm_rev = 1;
+  clock.speed(100);  // of G96: m/min
+  clock.control(control(NC_CONTROL_SURFACE_SPEED, 100, 0, 1), {});
+  const double per_mm = 2 * M_PI / 100'000 * 60;  // s for a revolution and each mm of the radius
+  EXPECT_FALSE(clock.is_constant());
+  EXPECT_NEAR(clock.seconds(along), 10 * 50 * per_mm, 1e-9);
+  EXPECT_NEAR(clock.seconds(across), (50 * 50 - 10 * 10) / 2 * per_mm, 1e-9);
+  EXPECT_NEAR(clock.share_after(across, (30 * 30 - 10 * 10) / 2 * per_mm), 0.5, 1e-6);
+  clock.control(control(NC_CONTROL_SPINDLE_CLAMP, NC_CLAMP_S, 0, 200), {});
+  EXPECT_NEAR(clock.seconds(along), 10.0 / 200 * 60, 1e-9);
+  clock.control(control(NC_CONTROL_SURFACE_SPEED, 0, 0, 0), {{1000, 0, 0}});  // the spindle keeps its speed
+  EXPECT_NEAR(clock.seconds(along), 10 * 1000 * per_mm, 1e-9);
+  clock.speed(1000);
+  EXPECT_NEAR(clock.seconds(along), 10.0 / 1000 * 60, 1e-9) << "such a clamp acts with a constant surface speed alone";
+  clock.control(control(NC_CONTROL_SPINDLE_CLAMP, NC_CLAMP_S | NC_CLAMP_ALWAYS, 0, 500), {});
+  EXPECT_NEAR(clock.seconds(along), 10.0 / 500 * 60, 1e-9);
+}
+
+TEST(Clock, ATaperThreadGoesByItsLongAxisAndAHelixPerhapsByItsArc) {
+  FakeItems items;
+  PathClock clock;
+  clock.speed(600);
+  nc_move taper = items.line(1, {{0, 0, 0}}, {{3, 0, -20}}, 0, NC_MOVE_THREAD).u.move;
+  taper.feed_mm_rev = 2;
+  EXPECT_NEAR(clock.seconds(taper), 1, 1e-12);
+  nc_move helix = items.line(1, {{10, 0, 0}}, {{-10, 0, 5}}, 600, NC_MOVE_HELIX).u.move;
+  helix.plane_axis[1] = 1;
+  helix.center_axes = 2;
+  helix.radius = 10;
+  helix.sweep_deg = 180;
+  helix.length = std::hypot(10 * M_PI, 5);
+  EXPECT_NEAR(clock.seconds(helix), helix.length / 10, 1e-12);
+  clock.set_helix_in_plane(true);
+  EXPECT_NEAR(clock.seconds(helix), M_PI, 1e-12);
 }
 
 TEST(Clock, ManyReadsLoseNoMillisecond) {

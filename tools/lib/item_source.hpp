@@ -24,7 +24,15 @@ class ItemSource {
   virtual nc_status rewind(uint64_t /*serial*/) { return NC_OK; }
   /** Sets the level of the macro interrupt signal. @return true when the item pulled last must not be executed. */
   virtual bool interrupt(bool /*on*/) { return false; }
-  /** A point of the move pulled last; false when the source has none. */
+  /** The item pulled last has been executed up to this place, where the axes stand: an interrupt or a reset comes there (nc_position_set). */
+  virtual void stand(const nc_axes& /*machine*/) {}
+  /** F of a helix is the speed in the plane of its arc (M700 6.6). */
+  virtual bool helix_in_plane() { return false; }
+  /** The language has operation alarms (operation_alarm.hpp); `digits`: F1 to F5 may be feeds of one digit (M700 7.3, #1079). */
+  virtual bool operation_alarms(bool* /*digits*/) { return false; }
+  /** Only this part of the move pulled last is executed, from one share of its length to another. */
+  virtual void part(double /*from*/, double /*to*/) {}
+  /** A point of the move pulled last, or of the part of it that is executed; false when the source has none. */
   virtual bool move_point(double /*share*/, nc_axes* /*machine*/) { return false; }
   /** Workpiece zero of the move pulled last, including the tool length (nc_move_zero); false when the source has none. */
   virtual bool move_zero(nc_axes* /*zero*/) { return false; }
@@ -50,6 +58,7 @@ class ControlSource final : public ItemSource {
  public:
   ControlSource(nc_control* control, nc_dialect dialect, unsigned system = kPartSystem) : control_(control), dialect_(dialect), system_(system) {}
   nc_status pull(uint32_t budget, nc_item* item) override {
+    part(0.0, 1.0);
     return nc_pull(control_, system_, budget, item);
   }
   nc_status pull_past(uint32_t budget, nc_passed* passed, nc_item* item) override {
@@ -61,8 +70,18 @@ class ControlSource final : public ItemSource {
     nc_interrupt_signal(control_, system_, on, &take_back);
     return take_back;
   }
+  void stand(const nc_axes& machine) override { nc_position_set(control_, system_, &machine); }
+  bool helix_in_plane() override { return is_set("1235/bit0"); }
+  bool operation_alarms(bool* digits) override {
+    *digits = is_set("1079");
+    return dialect_ == NC_DIALECT_M700;
+  }
+  void part(double from, double to) override {
+    from_ = from;
+    to_ = to;
+  }
   bool move_point(double share, nc_axes* machine) override {
-    return nc_move_point(control_, system_, share, machine) == NC_OK;
+    return nc_move_point(control_, system_, from_ + share * (to_ - from_), machine) == NC_OK;
   }
   bool move_zero(nc_axes* zero) override { return nc_move_zero(control_, system_, zero) == NC_OK; }
   bool move_side(nc_side* side, uint8_t plane_axis[2]) override { return nc_move_side(control_, system_, side, plane_axis) == NC_OK; }
@@ -107,9 +126,15 @@ class ControlSource final : public ItemSource {
   }
 
  private:
+  bool is_set(const char* key) const {  // a parameter of M700
+    double value = 0.0;
+    return dialect_ == NC_DIALECT_M700 && nc_parameter_get(control_, system_, key, 0, &value) == NC_OK && value != 0.0;
+  }
+
   nc_control* control_;
   nc_dialect dialect_;
   const unsigned system_;
+  double from_ = 0.0, to_ = 1.0;  // part of the move pulled last that is executed
 };
 
 }  // namespace nc::tools

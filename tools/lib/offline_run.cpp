@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "tools/lib/cut_item.hpp"
+#include "tools/lib/operation_alarm.hpp"
+
 namespace nc::tools {
 namespace {
 
@@ -15,14 +18,15 @@ constexpr uint64_t kMostMovesInBlock = 1000000;  // a cycle with a peck of a tho
 class OfflineRun {
  public:
   OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides, bool one_pass, const RunProgress& progress, const LoopLimits& loops, const RoundLimits& rounds)
-      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops, without_silent(rounds)) {}
+      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops, without_silent(rounds)), cuts_(world->waits_for_time()), axis_count_(world->axis_count()) {}
 
   RunResult run(uint64_t max_silent_blocks) {
+    alarms_ = items_.operation_alarms(&digits_);
     passes_moves_ = !sink_.takes_moves() && world_.waits_for_nothing();
     passes_.begin([this](uint32_t from, uint32_t* number, double* value) { return items_.next_common(from, number, value); });
     for (;;) {
       if (max_silent_blocks && silent_ >= max_silent_blocks) return endless();
-      const nc_status status = passes_moves_ ? pull_past() : items_.pull(kBudget, &item_);
+      const nc_status status = passes_moves_ && may_pass() ? pull_past() : items_.pull(kBudget, &item_);
       if (moves_in_block_ >= kMostMovesInBlock) return too_many_moves(past_.source);
       if (status == NC_BUDGET) {
         // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
@@ -42,6 +46,7 @@ class OfflineRun {
         interrupt_ = !interrupt_;
         if (items_.interrupt(interrupt_)) continue;  // the interrupt program comes before this item
       }
+      if (cuts_) [[unlikely]] cut_.resume(&item_, world_.machine(), &items_);
       if (!handle(item_)) return result_;
       if (result_.one_pass || sink_.stop()) {
         if (!result_.one_pass) return stopped();
@@ -157,7 +162,7 @@ class OfflineRun {
 
   bool handle(nc_item& item) {
     if (item.kind == NC_ITEM_MOVE) {  // most items are, and a jump by a table is foreseen less often than this one
-      move(item);
+      if (!move(item)) return false;
       if (++moves_in_block_ < kMostMovesInBlock) return true;
       too_many_moves(item.source);
       return false;
@@ -167,7 +172,7 @@ class OfflineRun {
         action(item);
         break;
       case NC_ITEM_GATE:
-        gate(item);
+        if (!gate(item)) return false;
         break;
       case NC_ITEM_SYNC:
         if (item.u.sync.what & NC_SYNC_CLOCK) loops_.asked();
@@ -205,13 +210,61 @@ class OfflineRun {
     return true;
   }
 
-  void move(nc_item& item) {
-    if (!world_.execute(&item.u.move)) return;
+  // All moves can be passed over: none of them may raise an operation alarm, and how long it lasts does not depend on its place.
+  bool may_pass() const { return world_.clock().is_constant() && (!alarms_ || (!digits_ && !world_.spindle_stands())); }
+
+  bool holds(const nc_item& item) {
+    if (!alarms_ || !operation_alarm(item.u.move, world_.spindle_stands() ? 0.0 : 1.0, &result_.alarm)) return false;
+    result_.alarm.source = item.source;
+    result_.how = RunResult::How::kAlarmed;
+    sink_.alarm(result_.alarm);
+    sink_.end(item.source, false, work_, world_.machine(), modal_);
+    finish();
+    return true;
+  }
+
+  // False: the run has ended, by an operation alarm or a reset in the middle of the move.
+  bool move(nc_item& item) {
+    nc_move& move = item.u.move;
+    if (move.feed_mm_rev > 0.0 || move.feed_mm_min == 0.0) [[unlikely]]
+      if (holds(item)) return false;
+    if (move.kind == NC_MOVE_HELIX) world_.clock().set_helix_in_plane(items_.helix_in_plane());
+    const bool moves = world_.begin(&move);
+    const bool whole = runs_through(&move);
+    if (!whole) {
+      cut_.cut_move(&item, world_.share(move), work_, axis_count_, &items_);
+      world_.cut_short();
+    }
+    world_.arrive(move);
+    if (moves && move.length > 0.0) note_move(item);
+    return whole || goes_on();
+  }
+
+  void note_move(const nc_item& item) {
     work_ = item.u.move.work;
     ++result_.moves;
     result_.length += item.u.move.length;
     if (item.u.move.kind == NC_MOVE_SKIP) sink_.skip_move(item.source, item.u.move, world_.skipped());
     else sink_.move(item.source, item.u.move);
+  }
+
+  // Lets the move (nullptr: the dwell) that has begun go on to its end. False: an event ends it before that, a reset or an interrupt of type 1 (M700 13.12).
+  bool runs_through(const nc_move* move) {
+    while (!world_.go_on()) {
+      if (!world_.reset() && world_.macro_interrupt() == interrupt_) continue;
+      items_.stand(move != nullptr ? cut_.place(*move, world_.share(*move), &items_) : world_.machine());
+      if (world_.reset()) return false;
+      interrupt_ = !interrupt_;
+      if (items_.interrupt(interrupt_)) return false;
+    }
+    return true;
+  }
+
+  // Behind an item that was cut: false when the run has ended there.
+  bool goes_on() {
+    if (!world_.reset()) return true;
+    reset();
+    return false;
   }
 
   void action(const nc_item& item) {
@@ -221,7 +274,7 @@ class OfflineRun {
         sink_.aux(item.source, 'M', action.value);
         return;
       case NC_ACTION_S:
-        world_.spindle(action.value);
+        world_.clock().speed(action.value);
         sink_.aux(item.source, 'S', action.value);
         return;
       case NC_ACTION_T:
@@ -237,20 +290,27 @@ class OfflineRun {
         sink_.message(item.source, action.index, text);
         return;
       }
+      case NC_ACTION_CONTROL:
+        world_.control(action);
+        return;
       default:
         return;  // interface outputs and control flags are no events of a trace
     }
   }
 
-  void gate(const nc_item& item) {
+  // False: the run has ended, by a reset in its middle.
+  bool gate(nc_item& item) {
     const nc_gate& gate = item.u.gate;
     // The switch of the optional stop decides whether M01 appears in the trace: the stream has only a gate for it, and no action.
     // M700 9.1
     if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', items_.optional_stop_code());
-    if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
+    if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return true;
     const bool turns = gate.kind == NC_GATE_DWELL_TURNS;
-    const double lasted = world_.dwell(turns, gate.value, gate.skip_mask);
+    double lasted = world_.begin_dwell(turns, gate.value, gate.skip_mask);
+    const bool whole = runs_through(nullptr);
+    if (!whole) cut_.cut_dwell(&item, lasted = world_.dwelt(turns));
     if (gate.announce) sink_.dwell(item.source, turns, lasted);
+    return whole || goes_on();
   }
 
   void mark(const nc_item& item) {
@@ -319,6 +379,10 @@ class OfflineRun {
   uint64_t last_mark_ = 0;      // serial number of the last mark
   uint32_t modal_ = 0;
   bool ended_ = false, interrupt_ = false;
+  bool alarms_ = false, digits_ = false;  // operation alarms are raised; F1 to F5 may be feeds of one digit
+  CutItem cut_;
+  const bool cuts_;             // an event of the clock may end an item in its middle
+  const unsigned axis_count_;
 };
 
 }  // namespace

@@ -65,6 +65,7 @@ bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole
   if (nc_undotted_get(session.control(), kPartSystem, &reading->whole_numbers) != NC_OK || (whole_numbers && !reading->whole_numbers)) return false;
   ControlSource items(session.control(), session.dialect());
   VirtualWorld world(session.setup(), session.config().system[0]);
+  world.spindle_may_turn();
   ShortRun sink;
   *result = run_offline(&items, &world, &sink, session.decides(), limits.silent_blocks, true, {}, limits.loops);
   *in_main = result->alarm.source.file == session.main_file();

@@ -255,6 +255,7 @@ class Check {
     setup.start = machine_.position[order_.system];
     setup.clock_ms = local_ms();
     VirtualWorld world(setup, config_.nc.system[order_.system]);
+    world.spindle_may_turn();
     RoundLimits rounds;
     rounds.never_ends = [this](const nc_source& to, uint32_t from) { return never_ends(to.line, from); };
     const RunResult result = run_offline(items_.get(), &world, sink_.get(), [this] { return has_decision(head_of(files_.text_of(file_).get())); }, kMostSilentBlocks, true, {}, LoopLimits{}, rounds);

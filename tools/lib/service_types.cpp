@@ -19,12 +19,12 @@ struct Member {
   const char* meaning;
   bool key;
 };
-struct RecordType {
+struct ServiceType {
   const char* name;
   const char* kind;  // struct, or enum: its members are the enumerators
   std::initializer_list<Member> members;
 };
-const RecordType kTypes[] = {
+const ServiceType kTypes[] = {
     {"ServiceStatus", "enum", {{"SERVICE_DONE", "", 0, "", false}, {"SERVICE_REFUSED", "", 0, "", false}, {"SERVICE_UPDATE", "", 0, "", false}}},
     {"ServiceRequest", "struct",
      {{"client", "text", rt::services::kMostRemoteClient, "unique for each running client: letters, digits, '.', '-', '_', '@'", true},
@@ -73,7 +73,7 @@ std::string python_type(const Member& member) {
   return kind == "unsigned long long" ? "types.uint64" : kind == "unsigned long" ? "types.uint32" : kind == "boolean" ? "bool" : kind;
 }
 
-std::string idl_of(const RecordType& type) {
+std::string idl_of(const ServiceType& type) {
   std::string text = "\n  @appendable\n  " + std::string(type.kind) + " " + type.name + " {";
   if (std::string(type.kind) == "enum") {
     for (const Member& member : type.members) text += (&member == type.members.begin() ? " " : ", ") + std::string(member.name);
@@ -88,7 +88,7 @@ std::string idl_of(const RecordType& type) {
   return text + "  };\n";
 }
 
-std::string python_of(const RecordType& type) {
+std::string python_of(const ServiceType& type) {
   const bool is_enum = std::string(type.kind) == "enum";
   const std::string name = type.name;
   std::string text = is_enum ? "@annotate.appendable\nclass " + name + "(IdlEnum, typename=\"nc." + name + "\", default=\"" + type.members.begin()->name + "\"):\n"
@@ -112,13 +112,13 @@ std::string services_idl() {
   text += comment("A request to " + std::string(rt::services::topic_of(Right::kOperate)) + ", " + rt::services::topic_of(Right::kSetUp) + " or " + rt::services::topic_of(Right::kMaintain) +
                       " may also use the services of view. Topic nc_ServiceReply, in the partition MACHINE/CLIENT: replies and updates.",
                   "  //");
-  for (const RecordType& type : kTypes) text += idl_of(type);
+  for (const ServiceType& type : kTypes) text += idl_of(type);
   return text;
 }
 
 std::string services_python() {
   std::string text;
-  for (const RecordType& type : kTypes) text += python_of(type);
+  for (const ServiceType& type : kTypes) text += python_of(type);
   text += "# The topic of the requests for each service, by the right that it needs.\nSERVICE_TOPICS = {\n";
   for (const ServiceRow& row : rt::services::service_table()) text += "    \"" + std::string(row.name) + "\": \"" + rt::services::topic_of(row.right) + "\",\n";
   return text + "}\nCHUNK_BYTES = " + std::to_string(rt::services::kChunkBytes) + "  # of a program, in one request or reply, at most\n";

@@ -16,6 +16,7 @@ namespace nc::tools {
 namespace {
 
 constexpr double kTouch = 1e-9;           // mm
+constexpr double kSameTime = 1e-9;        // s: an event so shortly before the end of an item comes behind it
 constexpr double kClockReadSeconds = 0.001;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -217,12 +218,28 @@ double VirtualWorld::first_exit(const nc_move& move) const {
   return touched && length > 0.0 ? std::max(next, kTouch / length) : next;  // it has moved
 }
 
-bool VirtualWorld::execute_skip(nc_move* move) {
+// The next event of the clock before the end of the item in hand fires; those that come together with it follow with the next calls.
+bool VirtualWorld::go_on_to_event() {
+  const auto sooner = [](const SetupEvent* a, const SetupEvent* b) { return *a->seconds < *b->seconds; };
+  const auto next = std::min_element(time_events_.begin(), time_events_.end(), sooner);
+  if (next == time_events_.end() || *(*next)->seconds >= item_end_ - kSameTime) {
+    seconds_ = item_end_;
+    return true;
+  }
+  const SetupEvent* const event = *next;
+  time_events_.erase(next);
+  seconds_ = std::max(seconds_, *event->seconds);
+  fire(*event);
+  return false;
+}
+
+bool VirtualWorld::begin_skip(nc_move* move) {
   const Touch hit = take_hit(now_, *move);
   double entry = !move->skip_away ? std::min(first_entry(*move), hit.part) : hit.hit != SIZE_MAX ? hit.part : first_exit(*move);
-  const double all = duration(*move);
-  const SetupEvent* const switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask, move->skip_away);
-  if (switched_on) entry = std::clamp((*switched_on->seconds - seconds_) / all, 0.0, 1.0);
+  nc_move entered = *move;
+  entered.length *= std::min(entry, 1.0);
+  const SetupEvent* const switched_on = signal_within(clock_.seconds(entered), move->skip_mask, move->skip_away);
+  if (switched_on) entry = clock_.share_after(*move, *switched_on->seconds - seconds_);
   skipped_ = entry <= 1.0;
   const double part = skipped_ ? entry : 1.0;
   if (skipped_) {
@@ -235,23 +252,22 @@ bool VirtualWorld::execute_skip(nc_move* move) {
     skip_machine_ = move->machine;
   }
   move->length *= part;
-  machine_ = move->machine;
-  work_ = move->work;
-  seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + duration(*move);
+  begin_item(switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + clock_.seconds(*move));
+  skip_hit_ = hit;
   return part > 0.0;
 }
 
-double VirtualWorld::dwell(bool turns, double value, uint32_t skip_mask) {
-  if (skip_mask && (signals_at(machine_) & skip_mask)) return 0.0;
-  const double seconds = !turns ? value : spindle_rev_min_ > 0.0 ? value / spindle_rev_min_ * 60.0 : 0.0;
+double VirtualWorld::begin_dwell(bool turns, double value, uint32_t skip_mask) {
+  const double rev = rev_min();
+  double seconds = !turns ? value : rev > 0.0 ? value / rev * 60.0 : 0.0;
+  if (skip_mask && (signals_at(machine_) & skip_mask)) seconds = value = 0.0;
   const SetupEvent* const switched_on = signal_within(seconds, skip_mask);
-  if (!switched_on) {
-    seconds_ += seconds;
-    return value;
+  if (switched_on) {
+    seconds = std::max(0.0, *switched_on->seconds - seconds_);
+    value = turns ? seconds * rev / 60.0 : seconds;
   }
-  const double before = seconds_;
-  seconds_ = std::max(seconds_, *switched_on->seconds);
-  return turns ? (seconds_ - before) * spindle_rev_min_ / 60.0 : seconds_ - before;
+  begin_item(seconds_ + seconds);
+  return value;
 }
 
 bool VirtualWorld::changes() const {

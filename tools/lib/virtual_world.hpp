@@ -11,14 +11,13 @@
 
 #include "nc/nc.h"
 #include "tools/lib/event_schedule.hpp"
+#include "tools/lib/path_clock.hpp"
 #include "tools/lib/setup.hpp"
 
 namespace nc::tools {
 
 /// Time of the simulated clock in whole milliseconds. The small addition keeps rounding from turning a whole number into the one below.
 inline int64_t whole_ms(double seconds) { return static_cast<int64_t>(std::floor(seconds * 1000.0 + 1e-6)); }
-
-inline constexpr double kRapidMmMin = 10'000.0;  // the clock of the trace assumes rapids of 10 m/min
 
 /** Inputs from outside: those of the macro interface, and skip signals that events have switched on (bit n = signal n+1). */
 struct OutsideSignals {
@@ -48,6 +47,10 @@ class VirtualWorld {
   /** True while an event waits for a block or an M code, so that the caller need not look for `main_line` otherwise. */
   bool waits_for_block() const { return schedule_.any(); }
 
+  /** True while an event waits for its time, which may come in the middle of an item. */
+  bool waits_for_time() const { return !time_events_.empty(); }
+  unsigned axis_count() const { return axis_count_; }
+
   /** True when events or hits are left, so that what comes may differ from what was before. */
   bool changes() const;
 
@@ -60,16 +63,46 @@ class VirtualWorld {
   bool reset() const { return reset_; }
 
   /**
-   * Executes a move: changes position and clock. A skip move is cut where it first enters a solid whose signal ends
-   * it; then *move is changed to what was really executed. @return false when there was no motion at all, because the
-   * signal was on at the start.
+   * Begins a move, which go_on() executes. A skip move is cut where it first enters a solid whose signal ends it; then *move is changed to what will really
+   * be executed. @return false when there is no motion at all, because the signal is on at the start.
    */
-  bool execute(nc_move* move) {
-    if (move->kind == NC_MOVE_SKIP) [[unlikely]] return execute_skip(move);
-    machine_ = move->machine;
-    work_ = move->work;
-    seconds_ += duration(*move);
+  bool begin(nc_move* move) {
+    if (move->kind == NC_MOVE_SKIP) [[unlikely]] return begin_skip(move);
+    begin_item(seconds_ + clock_.seconds(*move));
     return true;
+  }
+  /** Begins a dwell in seconds or spindle turns, which one of the skip signals ends. @return how many of them it will last // M700 15.3 (2) */
+  double begin_dwell(bool turns, double value, uint32_t skip_mask = 0);
+  /**
+   * Lets time pass until the item that has begun ends, or until an event of the clock fires before that: then it is to be called again, unless the
+   * event ends the item there. @return true at the end of the item.
+   */
+  bool go_on() {
+    if (!time_events_.empty()) [[unlikely]] return go_on_to_event();
+    seconds_ = item_end_;
+    return true;
+  }
+  /** The share of the length of the move that has begun (begin()) that is done. */
+  double share(const nc_move& move) const { return clock_.share_after(move, seconds_ - item_begin_); }
+  /** Seconds or turns of the dwell that has begun that have passed. */
+  double dwelt(bool turns) const { return turns ? (seconds_ - item_begin_) * rev_min() / 60.0 : seconds_ - item_begin_; }
+  /** The axes have come to the end of this move. */
+  void arrive(const nc_move& move) {
+    machine_ = move.machine;
+    work_ = move.work;
+  }
+  /** The move that has begun is not executed to its end: a hit that ends it is there for the rest of it. */
+  void cut_short() {
+    put_back(skip_hit_);
+    skipped_ = false;
+  }
+
+  /** Executes a move, whatever happens meanwhile. @return as begin() */
+  bool execute(nc_move* move) {
+    const bool moves = begin(move);
+    while (!go_on()) continue;
+    arrive(*move);
+    return moves;
   }
 
   /** Nothing but the program itself changes anything: no event is waited for, so moves need not be seen one by one. */
@@ -77,7 +110,7 @@ class VirtualWorld {
   /** What nc_pull_past() has to know; afterwards what it has passed over has been executed. */
   void prepare(nc_passed* passed) const {
     passed->rapid_mm_min = kRapidMmMin;
-    passed->spindle_rev_min = spindle_rev_min_;
+    passed->spindle_rev_min = rev_min();
     passed->seconds = seconds_;
   }
   void execute(const nc_passed& passed) {
@@ -86,9 +119,21 @@ class VirtualWorld {
     seconds_ = passed.seconds;
   }
 
-  /** Executes a dwell in seconds or spindle turns, which one of the skip signals ends. @return how many of them it has lasted // M700 15.3 (2) */
-  double dwell(bool turns, double value, uint32_t skip_mask = 0);
-  void spindle(double rev_per_min) { spindle_rev_min_ = rev_per_min; }
+  /** Executes a dwell, whatever happens meanwhile. @return as begin_dwell() */
+  double dwell(bool turns, double value, uint32_t skip_mask = 0) {
+    const double lasts = begin_dwell(turns, value, skip_mask);
+    while (!go_on()) continue;
+    return lasts;
+  }
+  /** What the program commands of the spindle, and with that how long its moves take. */
+  PathClock& clock() { return clock_; }
+  const PathClock& clock() const { return clock_; }
+  void control(const nc_action& action) { clock_.control(action, work_); }
+  /** Of the spindle, r/min. */
+  double rev_min() const { return clock_.rev_min(work_); }
+  /** The spindle may turn without an S of the program: a machine on which it is to run has been used before. */
+  void spindle_may_turn() { spindle_may_turn_ = true; }
+  bool spindle_stands() const { return !spindle_may_turn_ && !(rev_min() > 0.0); }
 
   /** The answer to a sync; reading the clock takes 1 ms. */
   nc_world answer(uint32_t what);
@@ -134,14 +179,13 @@ class VirtualWorld {
     bool taken = false, missed = false;  // missed: the move that took it does not pass the place or listens to other signals
     uint32_t line = 0;                   // line of that move
   };
-  bool execute_skip(nc_move* move);
-  /** Of the whole move, in seconds. It stands here because it is asked for every move. */
-  double duration(const nc_move& move) const {
-    double feed = move.feed_mm_min;
-    if (move.kind == NC_MOVE_RAPID) feed = kRapidMmMin;
-    if (move.feed_mm_rev > 0.0 && move.kind != NC_MOVE_TAP) feed = move.feed_mm_rev * spindle_rev_min_;
-    return feed > 0.0 ? move.length / feed * 60.0 : 0.0;
+  bool begin_skip(nc_move* move);
+  void begin_item(double end) {
+    item_begin_ = seconds_;
+    item_end_ = end;
+    skip_hit_ = {};
   }
+  bool go_on_to_event();
   double first_box(const nc_move& move, const SkipSolid& solid, double length) const;
   double first_probe(const nc_move& move, const SkipSolid& solid) const;
   const SetupEvent* signal_within(double seconds, uint32_t mask, bool off = false) const;
@@ -161,8 +205,10 @@ class VirtualWorld {
   nc_source now_ = {};
   std::vector<HitState> hits_;
   double seconds_ = 0.0;
-  double spindle_rev_min_ = 0.0;
-  bool reset_ = false;
+  double item_begin_ = 0.0, item_end_ = 0.0;  // of the item that has begun
+  Touch skip_hit_;                            // the hit that belongs to it
+  PathClock clock_;
+  bool reset_ = false, spindle_may_turn_ = false;
   bool interrupt_ = false;
   EventSchedule schedule_;
   std::vector<const SetupEvent*> time_events_;  // events with a time that have not been fired yet

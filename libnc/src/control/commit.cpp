@@ -238,6 +238,13 @@ Committed Commit::commit(const Item& item, const Named& named) {
   return Committed::yes;
 }
 
+/// How much faster the path of the move just committed goes than its F says: F of a thread is along the axis that goes furthest (M700 6.7.1), and F of a
+/// helix may be the speed in the plane of its arc (6.6).
+double Commit::path_by_feed(const Move& move) const {
+  if (move.kind == NC_MOVE_THREAD) return along_longest();
+  return move.plane_feed ? helix_slope() : 1.0;
+}
+
 /// Way along the path per way of the axis that moves most. M700 6.7.1: the lead of a tapered thread is measured along its longest axis, and the
 /// way along the path is longer.
 double Commit::along_longest() const {
@@ -495,9 +502,12 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
         s.feed_mm_s = std::fmax(s.feed_mm_s, s.skip_speeds->feed_mm_min[i] / 60);  // the plan must allow for the fastest of them
       s.thread = item.move.kind == NC_MOVE_THREAD;
       set_rule(item.move.rule, named.settings->rapid_dry, item.move.kind == NC_MOVE_TAP, &s);
-      if (s.thread) s.feed_mm_rev *= along_longest();
       if (item.move.kind == NC_MOVE_TAP) set_tap(item.move, &s);
-      if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
+      if (!s.rapid) {
+        const double factor = path_by_feed(item.move);
+        s.feed_mm_rev *= factor;
+        s.feed_mm_s *= factor;
+      }
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;
       if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // threads and taps go with the spindle

@@ -137,8 +137,9 @@ class Commit {
   /// Adds the move just committed, which is `move`, to what has been passed over.
   void count_move(const Move& move, nc_passed* passed) const {
     double feed = move.feed_mm_min;
-    if (move.kind == NC_MOVE_RAPID) feed = passed->rapid_mm_min;
     if (move.feed_mm_rev > 0 && move.kind != NC_MOVE_TAP) feed = move.feed_mm_rev * passed->spindle_rev_min;
+    if (move.kind == NC_MOVE_THREAD || move.plane_feed) [[unlikely]] feed *= path_by_feed(move);
+    if (move.kind == NC_MOVE_RAPID) feed = passed->rapid_mm_min;
     if (feed > 0) passed->seconds += curve_.length / feed * 60;
     passed->length += curve_.length;
     static_assert(sizeof passed->machine == sizeof machine_);
@@ -156,6 +157,12 @@ class Commit {
     segment->index_axes = index_axes(segment->curve);
     if (segment->index_axes != 0) segment->rest_before = segment->exact_stop = true;
   }
+
+  /// The move just committed turns an index table.
+  bool moves_tables() const { return index_axes(curve_) != 0; }
+
+  /// ... is an arc beside which the axes may go (M700 13.15).
+  bool rounds() const { return curve_.circular && (settings_->filters.round_mm[curve_.h] != 0 || settings_->filters.round_mm[curve_.v] != 0); }
 
   /// Takes the item just committed back, which has not been executed; `move`: it is a move. put_back() undoes it.
   void take_back(bool move) {
@@ -197,6 +204,7 @@ class Commit {
   bool inside_limits(const Curve& curve);
   void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);
   void commit_shape(const Move& move, const Affine& to_machine, const MoveShape& shape);
+  double path_by_feed(const Move& move) const;
   double along_longest() const;
   void set_tap(const Move& move, Segment* s) const;
   void set_rule(const FeedRule& rule, bool dry_rapid, bool is_tap, Segment* segment);

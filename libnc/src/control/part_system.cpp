@@ -335,6 +335,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 
 nc_status PartSystem::reset() {
   if (occupied()) return NC_E_STATE;
+  const bool amid = is_amid_;
   if (!online_ && !interpreter.ended()) {  // blocks that the stages hold back have not been executed
     const MarkPoint* last = commit_.newest();
     interpreter.keep_place(rewind(last != nullptr ? last->serial : 0) == NC_OK);
@@ -342,7 +343,7 @@ nc_status PartSystem::reset() {
     interpreter.keep_place(false);
   }
   interpreter.clear_by_reset();
-  restart(online_ ? executor.commanded() : commit_.machine());  // online the machine may have been moved by hand, or while its drives were off
+  restart(online_ ? executor.commanded() : amid ? amid_ : commit_.machine());  // online the machine may have been moved by hand, or while its drives were off
   commit_.restart();
   return NC_OK;
 }
@@ -351,7 +352,7 @@ nc_status PartSystem::select(const ProgramRef& program, bool mdi) {
   if (occupied()) return NC_E_STATE;
   const bool keep_modal = mdi && interpreter.is_mdi();
   interpreter.select(program, mdi);
-  restart(online_ ? executor.commanded() : commit_.machine(), keep_modal);
+  restart(online_ ? executor.commanded() : standing(), keep_modal);
   commit_.restart();
   return NC_OK;
 }
@@ -374,9 +375,14 @@ void PartSystem::forget_mdi() {
 
 void PartSystem::set_position(const AxisVec& machine) {
   forget_search();
+  executor.set_position(machine);
+  is_amid_ = !online_ && takes_time(pulled_);
+  if (is_amid_) {
+    amid_ = machine;
+    return;
+  }
   interpreter.set_machine(machine);
   commit_.set_machine(machine);
-  executor.set_position(machine);
 }
 
 /// After a sync: takes the positions that axes which are spindles as well have, because a spindle turns without the program (M700 10.5 (1)). Where a

@@ -48,7 +48,8 @@ class PartSystem {
   nc_status answer(const nc_world& world);
   nc_world at_end_of_what_is_read(const nc_world& world) const;
   nc_status rewind(Serial serial);
-  /// Offline: the level of the interrupt signal (M700 13.12). *take_back becomes true when the item pulled last must not be executed.
+  /// Offline: the level of the interrupt signal (M700 13.12). *take_back becomes true when the item pulled last must not be executed. Where set_position()
+  /// has said behind that item where the axes stand, it has been executed up to there.
   nc_status interrupt_signal(bool on, bool* take_back);
   nc_status feed(uint32_t budget);
   // restart.cpp: a program that is begun inside (nc/restart.h)
@@ -188,8 +189,12 @@ class PartSystem {
   void interrupt_online();
   bool drops(const Item& item);
   void resume_record(Record& record);
+  bool takes_time(ItemKind kind) const { return kind == ItemKind::move || kind == ItemKind::gate; }
+  bool cut_within() const;
+  /// Offline: where the axes stand, as far as it is known.
+  const AxisVec& standing() const { return is_amid_ ? amid_ : commit_.machine(); }
   void forget_interrupt() {
-    uit_pending_ = false;
+    uit_pending_ = is_amid_ = false;
     pulled_ = ItemKind::mark;
     drop_ = 0;
     resumes_ = false;
@@ -242,6 +247,9 @@ class PartSystem {
   InterruptRest uit_rest_;                   ///< when an interrupt signal that stays on counts again
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   bool pulled_in_hole_ = false;              ///< ... which belongs to a hole (Item::in_hole)
+  uint8_t move_kind_ = NC_MOVE_LINE;         ///< nc_move_kind of the move given out last
+  bool is_amid_ = false;                     ///< offline: the item given out last has been executed in part ...
+  AxisVec amid_;                             ///< ... and the axes stand here
   TransformId move_transform_ = 0;           ///< the map of the move given out last
   double move_offset_ = 0;                   ///< how far to the left of its programmed path it goes, mm
   uint8_t move_plane_axis_[2] = {0, 1};      ///< ... in this plane

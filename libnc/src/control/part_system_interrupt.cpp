@@ -19,11 +19,12 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   watch();
   // M700 13.12: an interrupt of type 1 acts at once. It interrupts the item that was given out last, where that takes time; a contour under
   // compensation, a hole of a fixed cycle and a block that waits for an answer are finished first.
-  const bool cuttable = !pulled_in_hole_ && (pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate);
+  const bool cuttable = !pulled_in_hole_ && (takes_time(pulled_) || pulled_ == ItemKind::action) && (!is_amid_ || cut_within());
   if (interpreter.interrupts().type_2 || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
-  if (interpreter.interrupt(commit_.machine(), 1, true)) {
-    uit_pending_ = false;
+  if (interpreter.interrupt(standing(), 1, true)) {
+    if (is_amid_) commit_.displace(amid_);
+    is_amid_ = uit_pending_ = false;
     uit_mode_ |= NC_INTERRUPT_IN_SERVICE;
     pulled_ = ItemKind::mark;
     looked_behind_ = kNowhere;
@@ -32,6 +33,13 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
     commit_.put_back(pulled_ == ItemKind::move);
   }
   return NC_OK;
+}
+
+/// The item given out last may end in its middle, as on the machine (Interpolator::may_cut()).
+bool PartSystem::cut_within() const {
+  if (pulled_ != ItemKind::move) return true;
+  const bool with_spindle = move_kind_ == NC_MOVE_THREAD || move_kind_ == NC_MOVE_TAP;
+  return !with_spindle && !commit_.moves_tables() && !commit_.rounds();
 }
 
 /// Begins the interrupt program at the end of a block. The blocks that were read ahead behind this block are given up.

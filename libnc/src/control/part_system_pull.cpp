@@ -15,6 +15,7 @@ namespace nc {
 [[gnu::always_inline]] inline void PartSystem::give(const Item& item, nc_item* out) {
   pulled_ = item.kind;
   pulled_in_hole_ = item.in_hole;
+  is_amid_ = false;
   if (item.kind == ItemKind::mark) {
     commit_.mark_to_public(item, out);
     if (watched_ && item.mark.report) [[unlikely]] uit_rest_.block_ended();
@@ -25,6 +26,7 @@ namespace nc {
     if (item.kind == ItemKind::move) [[likely]] {
       const Move& move = item.move;
       move_transform_ = move.transform;
+      move_kind_ = move.kind;
       move_offset_ = move.comp.side * move.comp.radius;
       move_plane_axis_[0] = move.comp.axis[0];
       move_plane_axis_[1] = move.comp.axis[1];
