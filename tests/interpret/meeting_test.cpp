@@ -313,7 +313,7 @@ TEST(Meeting, AlarmsOfModesThatBarIt) {  // "no spec": P390, P391, P398
   EXPECT_EQ(on_cylinder("Z60. A80."), "P390 L5");
   EXPECT_EQ(on_cylinder("G3 R10. H1\nG1 Z60. C0 A80."), "P391 L5");
   EXPECT_EQ(on_cylinder("G3 K10. H1\nG1 Z60. C0 A80."), "P398 L5");
-  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG5.1 Q2 X0 Y0\nM30"), "P395 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG5.1 Q2 X0 Y0\nM30"), "P394 L3");
 }
 
 TEST(Meeting, ACircleThatNamesItsMeetingPointIsNotDrivenWithoutOne) {

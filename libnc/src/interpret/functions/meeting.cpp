@@ -318,7 +318,7 @@ Execution check_second_words(BlockInHand& in) {
   for (const FunctionRow* row : in.words.functions) {
     if (is_plane(row->function)) return in.raise_code(Condition::geometric_plane, *row);
     const bool fits = plain_motion(row->function) || row->function == Function::absolute || row->function == Function::incremental;
-    if (!fits) return in.raise_code(Condition::geometric_address, *row);
+    if (!fits) return in.raise_code(row == in.words.one_shot ? Condition::geometric_no_line : Condition::geometric_address, *row);  // a dwell is no line
   }
   return Execution::done;
 }
