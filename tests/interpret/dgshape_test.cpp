@@ -115,7 +115,7 @@ TEST(Dgshape, TheCodeOfCompensationAloneWaitsForAMove) {  // G41: "actuated when
 TEST(Dgshape, AnInnerCornerOfADegreeOrLessHasTwoVectorsAtRightAngles) {  // G40 to G42, "Exceptions": the intersection lies 760 mm behind the start of the block
   Bench bench(NC_DIALECT_DGSHAPE);
   bench.tool(1, 2);
-  const Outcome run = bench.run("G90G21G17\nG01F100.G41D1X10.Y10.\nX40.Y10.\nX0.Y10.2\nG40X-10.Y0.\nM30");
+  const Outcome run = bench.run("%\nG90G21G17\nG01F100.G41D1X10.Y10.\nX40.Y10.\nX0.Y10.2\nG40X-10.Y0.\nM02");
   EXPECT_EQ(run.alarm, "");
   for (const nc_move& move : run.moves()) {
     EXPECT_GT(move.machine.v[0], -10.001);
