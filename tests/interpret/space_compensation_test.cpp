@@ -140,6 +140,10 @@ TEST(SpaceCompensation, IsTakenAwayByMachineMoveAndReferenceReturn) {
   EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nG28 X50.\nX60.\nM30"), (Path{"rapid 10 3 4", "rapid 50 0 0", "rapid 0 0 0", "rapid 60 3 4"}));
 }
 
+TEST(SpaceCompensation, TheCentreOfAFigureIsNoVector) {  // 13.3.3: I J K beside M98
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nM98 P100 I0 J1.\nX10.\nM30\nO100\nM99"), (Path{"rapid 5 0 0", "rapid 15 0 0"}));
+}
+
 TEST(SpaceCompensation, Alarms) {
   EXPECT_EQ(alarm_of("G2 X10. I5.\nM30").substr(0, 3), "P62");
   EXPECT_EQ(alarm_of("G1 F100 X1.\nG2 X10. I4.5\nG41 I1. J1. K1. D1\nM30"), "P150 L3");  // (8): in arc mode

@@ -100,7 +100,10 @@ Execution change_space_number(BlockInHand& in) {
   return Execution::done;
 }
 
-bool gives_space_vector(const BlockInHand& in) { return straight(in) && in.words.one_shot == nullptr && in.words.any({kVector[0], kVector[1], kVector[2]}); }
+bool gives_space_vector(const BlockInHand& in) {
+  if (!straight(in) || in.words.one_shot != nullptr || has_words_of_call(in)) return false;  // I J K beside M98 are the centre of a figure (13.3.3)
+  return in.words.any({kVector[0], kVector[1], kVector[2]});
+}
 
 Execution change_space_vector(BlockInHand& in) { return make_vector(in, in.state.modal.of(Mode::radius)); }
 
