@@ -144,6 +144,15 @@ TEST(SpaceCompensation, TheCentreOfAFigureIsNoVector) {  // 13.3.3: I J K beside
   EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nM98 P100 I0 J1.\nX10.\nM30\nO100\nM99"), (Path{"rapid 5 0 0", "rapid 15 0 0"}));
 }
 
+TEST(SpaceCompensation, IsTakenAwayWithoutAWayOfTheProgram) {  // (12), (14): of all axes, also where their programmed ends are one place
+  const std::string start = "G0 G41 X10. Y10. Z0 I0 J0 K1. D1\n";
+  for (const char* code : {"G53 Z0", "G53 X10.", "G91 G53 X0"})
+    EXPECT_EQ(path_of(start + code + "\nG90 X60.\nM30"), (Path{"rapid 10 10 5", "rapid 10 10 0", "rapid 60 10 5"})) << code;
+  EXPECT_EQ(path_of("G0 G41 X0 Y0 Z0 I1. J0 K0 D1\nG28 X0 Y0 Z0\nX5.\nM30"), (Path{"rapid 5 0 0", "rapid 0 0 0", "rapid 10 0 0"}));
+  // 12.3: the length along the tool is a vector in space, too.
+  EXPECT_EQ(path_of("G0 G43.1 X0 Y0 Z0 B90. H1\nG53 X0\nM30", [](Bench&) {}, "XYZbc").back(), "rapid 0 0 0 90 0");
+}
+
 TEST(SpaceCompensation, Alarms) {
   EXPECT_EQ(alarm_of("G2 X10. I5.\nM30").substr(0, 3), "P62");
   EXPECT_EQ(alarm_of("G1 F100 X1.\nG2 X10. I4.5\nG41 I1. J1. K1. D1\nM30"), "P150 L3");  // (8): in arc mode

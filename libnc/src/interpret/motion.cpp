@@ -366,7 +366,7 @@ bool stands_off(const InForce& in, uint32_t commanded) {
 }
 /// The same of vectors in space (12.5) and along the tool (12.3), of a place that the axes themselves go to.
 bool stands_off_place(const InForce& in, uint32_t commanded) {
-  return stands_off(in, commanded) || (commanded != 0 && (in.state.space.on || in.state.tool_length != 0));
+  return stands_off(in, commanded) || (commanded != 0 && in.state.moved_space.on);
 }
 
 void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
