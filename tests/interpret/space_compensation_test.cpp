@@ -153,6 +153,37 @@ TEST(SpaceCompensation, IsTakenAwayWithoutAWayOfTheProgram) {  // (12), (14): of
   EXPECT_EQ(path_of("G0 G43.1 X0 Y0 Z0 B90. H1\nG53 X0\nM30", [](Bench&) {}, "XYZbc").back(), "rapid 0 0 0 90 0");
 }
 
+TEST(SpaceCompensation, MirrorImageActsOnTheVectorWithTheNextCommandOfTheAxis) {  // (8)
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nG51.1 X0\nX20.\nG50.1 X0\nX30.\nG40\nM30"),
+            (Path{"rapid 5 0 0", "rapid -25 0 0", "rapid 35 0 0", "rapid 30 0 0"}));
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nG51.1 X0\nZ7.\nX20.\nM30"), (Path{"rapid 5 0 0", "rapid 5 0 7", "rapid -25 0 7"}));
+  // Where the axis stands in its mirror the vector turns alone.
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nG51.1 X0\nX0\nZ7.\nG50.1 X0\nX0\nM30"),
+            (Path{"rapid 5 0 0", "rapid -5 0 0", "rapid -5 0 7", "rapid 5 0 7"}));
+  // A vector of the mirrored mode, and one behind it.
+  EXPECT_EQ(path_of("G0 G51.1 X0\nG41 X10. I1. J0 K0 D1\nX20. I3. J0 K4.\nG50.1 X0\nX30. I1. J0 K0\nM30"),
+            (Path{"rapid -15 0 0", "rapid -23 0 4", "rapid 35 0 0"}));
+  EXPECT_EQ(path_of("G0 G51.1 X0\nG41 X10. I1. J0 K0 D1\nG40 X20.\nG50.1 X0\nX30.\nM30"), (Path{"rapid -15 0 0", "rapid -20 0 0", "rapid 30 0 0"}));
+}
+
+TEST(SpaceCompensation, RotationByParameterTurnsTheVector) {  // (7)
+  EXPECT_EQ(path_of("G0 G10 K90.\nG41 X10. Y0 Z0 I1. J0 K0 D1\nX20.\nM30"), (Path{"rapid 0 15 0", "rapid 0 25 0"}));
+  EXPECT_EQ(path_of("G0 G10 K90.\nG41 X10. Y0 Z0 I0 J0 K1. D1\nX20.\nG40\nM30"), (Path{"rapid 0 10 5", "rapid 0 20 5", "rapid 0 20 0"}));
+  // Switched on in the mode the vector turns with the command that brings the axes into the rotation (13.21, precaution (1)), not before.
+  EXPECT_EQ(path_of("G0 G41 X0 Y0 Z0 I1. J0 K0 D1\nG10 K90.\nX20.\nX30. I1. J0 K0\nG10 K0\nX40.\nM30"),
+            (Path{"rapid 5 0 0", "rapid 0 25 0", "rapid 0 35 0", "rapid 45 0 0"}));
+  EXPECT_EQ(path_of("G0 G41 X0 Y0 Z0 I1. J0 K0 D1\nG10 K90.\nZ7.\nX20.\nM30"), (Path{"rapid 5 0 0", "rapid 5 0 7", "rapid 0 25 7"}));
+  // Mirror image lies before the rotation, and so it does of the vector.
+  EXPECT_EQ(path_of("G0 G51.1 X0\nG10 K90.\nG41 X10. Y0 I1. J0 K0 D1\nM30"), (Path{"rapid 0 -15 0"}));
+  EXPECT_EQ(path_of("G0 G10 K30.\nG41 X10. Y0 I0 J1. K0 D1\nM30"), (Path{"rapid 6.160254 9.330127 0"}));
+  // One axis of the rotation is none of the space.
+  const auto parallel = [](Bench& bench) { bench.param("1029", "U"); };
+  Bench bench(NC_DIALECT_M700, axes("XYZU"));
+  bench.tool(1, 5);
+  parallel(bench);
+  EXPECT_EQ(bench.run("G0 G10 K90.\nG17 U0\nG41 U1. I1. J0 K0 D1\nM30").alarm, "P113");
+}
+
 TEST(SpaceCompensation, Alarms) {
   EXPECT_EQ(alarm_of("G2 X10. I5.\nM30").substr(0, 3), "P62");
   EXPECT_EQ(alarm_of("G1 F100 X1.\nG2 X10. I4.5\nG41 I1. J1. K1. D1\nM30"), "P150 L3");  // (8): in arc mode

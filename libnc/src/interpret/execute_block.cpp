@@ -400,7 +400,7 @@ bool only_moves(const BlockInHand& in) {
   const Command& w = in.words;
   // Motions with words of their own, and modes that change what words mean, take the long way.
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
-  if (in.state.special != 0 || in.state.work_turned || in.state.meeting.kind != MeetingFirst::Kind::none || w.has_angle || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
+  if (in.state.special != 0 || in.state.work_turned || (in.state.space.on && in.state.mapped) || in.state.meeting.kind != MeetingFirst::Kind::none || w.has_angle || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
   if (in.dialect->rules.compensation.begins_beside_start && in.state.compensated()) return false;
   const bool codes = w.functions.empty() || (w.functions.size() == 1 && w.motion != nullptr);
   return codes && w.auxiliary.empty() && (w.present & ~(in.axis_words.all() | in.set_of({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
@@ -556,11 +556,16 @@ Execution execute_read_words(Interpreter& in) {
   if (did != Execution::done) return did;
   // Another number or code alone only counts from the next I J K on (M700 12.5 (4), (5)): it moves nothing and takes no feed.
   const bool keeps_vector = space_before.on && in.state.space == space_before && in.state.tool_length == 0 && !gives_space_vector(in);
-  if (!w.comp_command || keeps_vector) return finish(in, execute_motion(in));
+  const bool may_turn = in.state.space.on && in.state.mapped;
+  if ((!w.comp_command || keeps_vector) && !may_turn) return finish(in, execute_motion(in));
+  const bool by_command = w.comp_command && !keeps_vector;
+  const SpaceVector vector_before = space_compensation_vector(in);
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
   const bool at_once = !in.dialect->rules.compensation.code_alone_waits || in.state.comp.has_vector || in.state.comp.cancel_vector;
-  if (did == Execution::done && in.state.machine == before && at_once) {
+  // An axis that comes to its mirror image or to a rotation (13.21) where it stands turns the vector without a way.
+  const bool leads = by_command || !(space_compensation_vector(in) == vector_before);
+  if (did == Execution::done && in.state.machine == before && at_once && leads) {
     // The vector is gone to at once (M700 12.3, 12.5): as a line that takes a feed (3.2, P62), which a block that only waits for its vector does not.
     if (w.vector_in_space && !in.state.modal.is(Function::rapid)) did = check_feed(in, Function::linear);
     if (did == Execution::done) move_nowhere(in);

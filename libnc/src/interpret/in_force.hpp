@@ -98,7 +98,7 @@ struct InForce {
     const CallFrame& frame = state.frame[state.depth];
     state.modal_call = frame.modal_call;
     state.mapped = state.any_mirror() != 0 || frame.figure != 0 || state.scaled != 0 || state.rotated ||
-                   state.work_turned;
+                   state.work_turned || state.space_mirror != 0;
   }
 
   // ---- journalled writes

@@ -170,7 +170,8 @@ void Interpreter::reset(bool keep_modal) {
   take_machine_truth();
   keep_modal = keep_modal || place_.kept;
   SpaceVector along_tool = state.moved_space;
-  for (unsigned i = 0; state.space.on && i < 3; ++i) along_tool.v[i] -= state.space.v[i];
+  const SpaceVector beside_radius = space_compensation_vector(*this);
+  for (unsigned i = 0; state.space.on && i < 3; ++i) along_tool.v[i] -= beside_radius.v[i];
   begin_program(state, initial_values(), keep_modal);
   if (state.tool_length != 0) state.moved_space = along_tool;  // the axes still stand beside the program by it
   if (dialect->rules.coordinate.shift_ends_with_program && !keep_modal)

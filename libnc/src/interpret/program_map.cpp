@@ -9,6 +9,7 @@
 // Each map is affine, and so is the composition of all. It is calculated when a block asks for it for the first time after a change.
 #include "interpret/program_map.hpp"
 
+#include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/work_rotation.hpp"
 
@@ -218,6 +219,7 @@ uint32_t begin_mapped_move(InForce& in, uint32_t commanded) {
   const PlaneAxes axes = plane(in);
   if (in.state.map_begins && axes.h >= 0 && (commanded >> axes.h & 1) != 0) in.state.map_begins = false;
   if (in.state.work_turn_pending) work_rotation_reached(in, commanded);
+  if (in.state.space.on) mirror_space_vector(in, commanded);
   return commanded;
 }
 

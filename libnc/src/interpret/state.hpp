@@ -258,7 +258,8 @@ struct ModalInProgram {
   uint32_t vacant_feed_line = 0;  ///< line, and above file, of that F
   SplineWay spline_way;
   MeetingFirst meeting;         ///< of the block before
-  SpaceVector space;            ///< three-dimensional radius compensation in force (M700 12.5)
+  SpaceVector space;            ///< three-dimensional radius compensation in force (M700 12.5), its vector as I J K say it: before mirror image and 13.21
+  uint8_t space_mirror = 0;     ///< bit i: its vector stands mirrored on axis i
   LifeInput life_input;
   SpaceVector moved_space;      ///< Move::space of the last movement, without a vector where it had taken it away
 };

@@ -21,6 +21,13 @@ uint32_t plane_bits(const InForce& in) {
   return plane_bits(turns.commanded) | plane_bits(turns.reached);
 }
 
+/// A rotation concerns one of the three axes on which three-dimensional radius compensation has its vector, and another one that is not among them.
+bool tilts_space(const InForce& in, const WorkTurn& turn) {
+  unsigned turned = 0;
+  for (const uint8_t axis : in.state.space.axis) turned += plane_bits(turn) >> axis & 1;
+  return in.state.space.on && turned == 1;
+}
+
 }  // namespace
 
 void refresh_work_rotation(InForce& in) {
@@ -79,6 +86,7 @@ bool tilts_plane(const InForce& in, unsigned h, unsigned v) {
 Execution check_work_rotation(BlockInHand& in) {
   const WorkTurns& turns = in.records->work_turn;
   for (const WorkTurn* turn : {&turns.commanded, &turns.reached}) {
+    if (tilts_space(in, *turn)) return in.raise_mode(Condition::plane_mismatch, Mode::radius);
     if (!turn->turns() || turn->has_plane()) continue;
     return in.raise(Condition::illegal_axis, in.settings.work_turn_axis[turn->axis[0] < 0 ? 0 : 1]);
   }

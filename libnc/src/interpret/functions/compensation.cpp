@@ -152,7 +152,7 @@ Execution set_compensation(BlockInHand& in, Function function) {
   const bool arc = is_arc(motion);
   Role words[2];
   if (function == Function::comp_off && state.space.on) {
-    state.space = {};
+    end_space_compensation(in);
     return Execution::done;
   }
   if (function == Function::comp_off) {

@@ -92,6 +92,12 @@ Execution set_space_compensation(BlockInHand& in, Function function);
 Execution change_space_number(BlockInHand& in);   ///< D without such a code
 bool gives_space_vector(const BlockInHand& in);   ///< a block of the mode names another vector
 Execution change_space_vector(BlockInHand& in);
+void end_space_compensation(InForce& in);
+/// The axes that a block commands come to the mirror image in force, with their components of the vector.
+void mirror_space_vector(InForce& in, uint32_t commanded);
+/// The vector in force as the axes have come to it: mirror image and the rotation by parameter lie behind the compensation and act on it, too (12.5 (7), (8));
+/// scaling and rotation by program lie before it and do not ((5), (6)).
+SpaceVector space_compensation_vector(const InForce& in);
 
 /// Length along the axis of the tool (M700 12.3): tool_axis.cpp.
 Execution set_length_along_tool(BlockInHand& in, double length);

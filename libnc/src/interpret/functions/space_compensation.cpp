@@ -34,8 +34,17 @@ Execution choose_space(BlockInHand& in, SpaceVector* space) {
   return Execution::done;
 }
 
+/// The vector stands mirrored on these axes and on no others.
+void set_mirrored(InForce& in, uint8_t axes) {
+  if (in.state.space_mirror == axes) return;
+  in.state.space_mirror = axes;
+  in.program_changed();
+}
+
+uint8_t axes_of(const SpaceVector& space) { return static_cast<uint8_t>(1u << space.axis[0] | 1u << space.axis[1] | 1u << space.axis[2]); }
+
 /// 12.5, "vector": along I J K, as long as the amount; against it with G42, and with a negative amount. Words that the block does not have
-/// are 0. Mirror image lies behind the compensation and mirrors the vector, too; scaling and rotation by program do not touch it.
+/// are 0.
 Execution make_vector(BlockInHand& in, Function side) {
   State& state = in.state;
   double squares = 0;
@@ -48,11 +57,8 @@ Execution make_vector(BlockInHand& in, Function side) {
   const double radius = radius_amount(in, state.modal.d);
   const double divisor = in.settings.space_divisor != 0 ? in.settings.space_divisor : std::sqrt(squares);
   const double factor = (side == Function::comp_right ? -radius : radius) / divisor;
-  for (unsigned i = 0; i < 3; ++i) {
-    const unsigned axis = state.space.axis[i];
-    if (state.work_turned && turns_axis(in, axis)) return in.raise_function(Condition::plane_mismatch, side);  // 13.21
-    state.space.v[i] *= (state.any_mirror() >> axis & 1) != 0 ? -factor : factor;
-  }
+  for (double& along : state.space.v) along *= factor;
+  set_mirrored(in, state.any_mirror() & axes_of(state.space));
   in.words.comp_command = true;
   return Execution::done;
 }
@@ -75,7 +81,7 @@ Execution set_space_compensation(BlockInHand& in, Function function) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
   if (state.modal.d == 0) {  // D00 cancels, and starts nothing
-    state.space = {};
+    end_space_compensation(in);
     return Execution::done;
   }
   if (state.space.on) return gives_space_vector(in) ? make_vector(in, function) : Execution::done;  // (5): from the next I J K on
@@ -95,7 +101,7 @@ Execution change_space_number(BlockInHand& in) {
   uint32_t number = 0;
   const Execution did = offset_number(in, Role::offset_number, &number);
   if (did != Execution::done || number != 0) return did;  // (7): it counts beside a code of the mode
-  in.state.space = {};
+  end_space_compensation(in);
   in.words.comp_command = true;
   return Execution::done;
 }
@@ -103,6 +109,30 @@ Execution change_space_number(BlockInHand& in) {
 bool gives_space_vector(const BlockInHand& in) {
   if (!straight(in) || in.words.one_shot != nullptr || has_words_of_call(in)) return false;  // I J K beside M98 are the centre of a figure (13.3.3)
   return in.words.any({kVector[0], kVector[1], kVector[2]});
+}
+
+void end_space_compensation(InForce& in) {
+  in.state.space = {};
+  set_mirrored(in, 0);
+}
+
+/// 12.5 (8): what is mirrored behind the compensation is the place of the tool, which an axis comes to with its next command (13.6). Until then its component of
+/// the vector stays as it is.
+void mirror_space_vector(InForce& in, uint32_t commanded) {
+  State& state = in.state;
+  if (!state.space.on) return;
+  const uint32_t axes = commanded & axes_of(state.space);
+  set_mirrored(in, static_cast<uint8_t>((state.space_mirror & ~axes) | (state.any_mirror() & axes)));
+}
+
+SpaceVector space_compensation_vector(const InForce& in) {
+  SpaceVector vector = in.state.space;
+  if (!vector.on || !in.state.mapped) return vector;
+  AxisVec along;
+  for (unsigned i = 0; i < 3; ++i) along[vector.axis[i]] = (in.state.space_mirror >> vector.axis[i] & 1) != 0 ? -vector.v[i] : vector.v[i];
+  if (in.state.work_turned) along = work_rotation(in, in.records->work_turn.reached).direct(along);
+  for (unsigned i = 0; i < 3; ++i) vector.v[i] = along[vector.axis[i]];
+  return vector;
 }
 
 Execution change_space_vector(BlockInHand& in) { return make_vector(in, in.state.modal.of(Mode::radius)); }

@@ -91,11 +91,11 @@ void cancel_length_by_hand(InForce& in, uint32_t axes) {
   state.tool_length = state.length_by_handle = 0;
   state.length_changed_by_handle = false;
   state.modal.set(Function::length_off);
-  state.moved_space = state.moved_space.on ? state.space : SpaceVector{};
+  state.moved_space = state.moved_space.on ? space_compensation_vector(in) : SpaceVector{};
 }
 
 SpaceVector space_vector(const InForce& in, const AxisVec& machine) {
-  SpaceVector vector = in.state.space;
+  SpaceVector vector = space_compensation_vector(in);
   if (in.state.tool_length == 0) return vector;
   if (!vector.on) {
     vector.on = true;
