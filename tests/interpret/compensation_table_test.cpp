@@ -150,7 +150,7 @@ constexpr Row kInSpace[] = {
     {"12.5", "2-D: in its mode I J K are no three-dimensional command", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG41 Y40. Z9. I0 J5. K5.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,40,9 0,35,9 60,60,9"},
     {"12.5", "2-D: G42 without I J K changes the modal, the vector stays", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nG42 X-30.\nX-40. I-5. J-5. K-5.\n", "0,0 -15.774,-25.774,-15.774 -35.774,-25.774,-15.774 -34.226,-14.226,-4.226"},
     {"12.5", "tool length: added behind it", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG10 L10 P4 R3.\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nG43 H4 Z-20.\n", "0,0 -15.774,-25.774,-15.774 -15.774,-25.774,-22.774"},
-    {"12.5", "tool position: added behind it", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nG45 X-30. D1\n", "0,0 -15.774,-25.774,-15.774 -45.774,-25.774,-15.774"},
+    {"12.5", "tool position: added behind it, by its own D", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nG45 X-30. D1\n", "0,0 -15.774,-25.774,-15.774 -40.774,-25.774,-15.774"},
     {"12.5", "fixed cycle: P155", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nG81 X9. Z-5. R1.\n", "0,0 -15.774,-25.774,-15.774 P155 L4"},
     {"12.5", "scaling: of the points, not of I J K and the amount", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG51 X0 Y0 P0.5\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nX-30. Y-30. Z-20.\n", "0,0 -10.774,-15.774,-15.774 -20.774,-20.774,-25.774"},
     {"12.5", "G68: of the points, I J K do not rotate", "", "G10 L10 P3 R10.\nG0 X0 Y0\nG68 X0 Y0 R45.\nG41 X-10. Y-20. Z-10. I-5. J-5. K-5. D3\nX-30. Y-30. Z-20.\n", "0,0 1.298,-26.987,-15.774 -5.774,-48.2,-25.774"},

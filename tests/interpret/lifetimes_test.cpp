@@ -117,7 +117,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, third_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, stitch, spline, held_point, stroke_box, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle)
   NC_FIELDS(ModalInProgram, comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
-            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, life_input, moved_space)
+            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamp, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle)
   NC_FIELDS(UntilOperatorReset, left_by_end)

@@ -140,10 +140,6 @@ TEST(SpaceCompensation, IsTakenAwayByMachineMoveAndReferenceReturn) {
   EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nG28 X50.\nX60.\nM30"), (Path{"rapid 10 3 4", "rapid 50 0 0", "rapid 0 0 0", "rapid 60 3 4"}));
 }
 
-TEST(SpaceCompensation, TheCentreOfAFigureIsNoVector) {  // 13.3.3: I J K beside M98
-  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nM98 P100 I0 J1.\nX10.\nM30\nO100\nM99"), (Path{"rapid 5 0 0", "rapid 15 0 0"}));
-}
-
 TEST(SpaceCompensation, IsTakenAwayWithoutAWayOfTheProgram) {  // (12), (14): of all axes, also where their programmed ends are one place
   const std::string start = "G0 G41 X10. Y10. Z0 I0 J0 K1. D1\n";
   for (const char* code : {"G53 Z0", "G53 X10.", "G91 G53 X0"})
@@ -184,6 +180,24 @@ TEST(SpaceCompensation, RotationByParameterTurnsTheVector) {  // (7)
   EXPECT_EQ(bench.run("G0 G10 K90.\nG17 U0\nG41 U1. I1. J0 K0 D1\nM30").alarm, "P113");
 }
 
+TEST(SpaceCompensation, PositionOffsetHasANumberOfItsOwn) {  // (3); 12.1, 12.6
+  EXPECT_EQ(path_of("G0 G91 G41 X10. I0 J0 K1. D1\nG45 X10. D2\nG45 X10.\nX10. I0 J1. K0\nM30"),
+            (Path{"rapid 10 0 5", "rapid 30 0 5", "rapid 50 0 5", "rapid 60 5 0"}));
+  EXPECT_EQ(path_of("G0 G91 G41 X10. I0 J0 K1. D1\nG45 X10.\nM30"), (Path{"rapid 10 0 5", "rapid 25 0 5"}));
+  // A code of the mode without D takes the number that was commanded last.
+  EXPECT_EQ(path_of("G0 G91 G41 X10. I0 J0 K1. D1\nG45 X10. D2\nG41 X10. I0 J0 K1.\nM30").back(), "rapid 40 0 10");
+}
+
+TEST(SpaceCompensation, ANumberBehindD00StartsNothing) {  // restriction (1)
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nX10. D0\nX20. D1\nX30.\nM30"), (Path{"rapid 5 0 0", "rapid 10 0 0", "rapid 20 0 0", "rapid 30 0 0"}));
+  EXPECT_EQ(path_of("G0 G41 X1. I1. J0 K0 D0\nX20. D1\nX30.\nM30"), (Path{"rapid 1 0 0", "rapid 20 0 0", "rapid 30 0 0"}));
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nX10. D0\nG41 X20. I0 J0 K1. D1\nM30"), (Path{"rapid 5 0 0", "rapid 10 0 0", "rapid 20 0 5"}));
+}
+
+TEST(SpaceCompensation, TheCentreOfAFigureIsNoVector) {  // 13.3.3: I J K beside M98
+  EXPECT_EQ(path_of("G0 G41 X0 I1. J0 K0 D1\nM98 P100 I0 J1.\nX10.\nM30\nO100\nM99"), (Path{"rapid 5 0 0", "rapid 15 0 0"}));
+}
+
 TEST(SpaceCompensation, Alarms) {
   EXPECT_EQ(alarm_of("G2 X10. I5.\nM30").substr(0, 3), "P62");
   EXPECT_EQ(alarm_of("G1 F100 X1.\nG2 X10. I4.5\nG41 I1. J1. K1. D1\nM30"), "P150 L3");  // (8): in arc mode
@@ -198,6 +212,8 @@ TEST(SpaceCompensation, Alarms) {
 
 TEST(SpaceCompensation, EveryMarkIsAPlaceToGoOnFrom) {
   goes_on_from_every_mark("G1 F100 G41 X10. I0 J3. K4. D1\nX20.\nG42 D2\nM8\nX30. I3. K4.\nG53 X7.\nM9\nG1 X40. I0 J0 K4.\nG3 X50. Y10. J10.\nG1 G40 X50.\nM30",
+                          [](Bench& bench) { bench.tool(1, 5).tool(2, 3); });
+  goes_on_from_every_mark("G1 F100 G41 X10. I3. J0 K4. D1\nG51.1 X0\nZ7.\nM8\nX20.\nG53 X-20.\nM9\nX30.\nG10 K90.\nX40.\nG45 X50. D2\nG50.1 X0\nM8\nG10 K0\nX60.\nX60. D0\nX5.\nM30",
                           [](Bench& bench) { bench.tool(1, 5).tool(2, 3); });
 }
 

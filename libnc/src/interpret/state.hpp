@@ -260,6 +260,7 @@ struct ModalInProgram {
   MeetingFirst meeting;         ///< of the block before
   SpaceVector space;            ///< three-dimensional radius compensation in force (M700 12.5), its vector as I J K say it: before mirror image and 13.21
   uint8_t space_mirror = 0;     ///< bit i: its vector stands mirrored on axis i
+  uint32_t space_number = 0;    ///< the D of its code
   LifeInput life_input;
   SpaceVector moved_space;      ///< Move::space of the last movement, without a vector where it had taken it away
 };

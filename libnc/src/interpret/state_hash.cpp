@@ -237,9 +237,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror,
-                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, life_input, moved_space] = static_cast<const ModalInProgram&>(values);
+                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space] = static_cast<const ModalInProgram&>(values);
     hash.add(comp, cycle, motion_off, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
-             vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, life_input, moved_space);
+             vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space);
     // Inside a curve that is given block by block its points have numbers of their own: two such states count as different.
     if (arc_step != ArcStep::none) hash.add(arc_points);
     if (nurbs.active()) hash.add(nurbs);

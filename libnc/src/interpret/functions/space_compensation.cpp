@@ -54,7 +54,7 @@ Execution make_vector(BlockInHand& in, Function side) {
   }
   if (squares == 0) return in.raise(Condition::no_direction, kVector[0], 0);
   if (!std::isfinite(squares)) return in.raise(Condition::value_range, kVector[0], in.words.has(kVector[0]) ? in.words.get(kVector[0]) : 0);
-  const double radius = radius_amount(in, state.modal.d);
+  const double radius = radius_amount(in, state.space_number);
   const double divisor = in.settings.space_divisor != 0 ? in.settings.space_divisor : std::sqrt(squares);
   const double factor = (side == Function::comp_right ? -radius : radius) / divisor;
   for (double& along : state.space.v) along *= factor;
@@ -64,6 +64,12 @@ Execution make_vector(BlockInHand& in, Function side) {
 }
 
 bool straight(const InForce& in) { return is_line(in.state.modal.of(Mode::motion)); }
+
+/// D00 cancels the mode as G40 does: a D behind it is no code of compensation that would start it again, or another one (restriction (1)).
+void cancel_by_number(BlockInHand& in) {
+  end_space_compensation(in);
+  in.state.modal.set(Function::comp_off);
+}
 
 }  // namespace
 
@@ -81,9 +87,10 @@ Execution set_space_compensation(BlockInHand& in, Function function) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
   if (state.modal.d == 0) {  // D00 cancels, and starts nothing
-    end_space_compensation(in);
+    cancel_by_number(in);
     return Execution::done;
   }
+  state.space_number = state.modal.d;
   if (state.space.on) return gives_space_vector(in) ? make_vector(in, function) : Execution::done;  // (5): from the next I J K on
   if (!straight(in) || state.map.active() || state.spline.on) return in.raise(Condition::space_compensation, Role::vector_z);
   if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise_function(Condition::cycle_in_compensation, function);
@@ -99,9 +106,10 @@ Execution set_space_compensation(BlockInHand& in, Function function) {
 
 Execution change_space_number(BlockInHand& in) {
   uint32_t number = 0;
-  const Execution did = offset_number(in, Role::offset_number, &number);
-  if (did != Execution::done || number != 0) return did;  // (7): it counts beside a code of the mode
-  end_space_compensation(in);
+  const bool of_position = in.words.one_shot != nullptr && offsets_position(in.words.one_shot->function);
+  const Execution did = of_position ? take_radius_number(in) : offset_number(in, Role::offset_number, &number);
+  if (did != Execution::done || of_position || number != 0) return did;  // restriction (1): it counts beside a code of the mode
+  cancel_by_number(in);
   in.words.comp_command = true;
   return Execution::done;
 }
