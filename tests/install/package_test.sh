@@ -69,7 +69,8 @@ holds libnc-dev -rw-r--r-- usr/include/nc/nc.h "$lib/libnc.a" "$lib/pkgconfig/li
 holds libnc-dev lrwxrwxrwx "$lib/libnc.so"
 
 field nc-tools Multi-Arch foreign
-field nc-tools Depends '.*libc6 \(.*libcairo2.*'
+field nc-tools Depends '.*libc6 \(.*'
+field nc-tools Recommends libcairo2
 holds nc-tools -rwxr-xr-x usr/bin/ncsim
 holds nc-tools -rw-r--r-- 'usr/share/man/man1/ncsim.1.gz'
 
