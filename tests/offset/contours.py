@@ -617,6 +617,11 @@ class Contour:
         """Half a micrometre does not scale: twice as long it may be a block, which has a side, or a corner with the new amount, of its own."""
         return self.changes_at() is not None and min(self.programmed[k].length() for k in self.changes_at()) < NO_DIRECTION
 
+    def changes_from_a_point(self):
+        """The amount changes along an arc that has the radius of the tool: its path leads away from its centre. To the last digit it begins there, without a direction, and is
+        a line, or it begins beside it, and is a spiral."""
+        return self.other is not None and any(e.center and abs(e.radius() - self.radius) < 2 * NO_DIRECTION for e in self.programmed[self.other[0]:self.other[0] + 1])
+
     def left_at(self, block):
         """Is the tool to the left of this block?"""
         return self.side() == "G41"

@@ -450,8 +450,8 @@ def main():
         for contour, result, other in zip(tried, results, run_all(programs)):
             if way == "back" and not contour.reversible():
                 continue  # their words stand at other blocks then, and along its sides the tool comes from the other end
-            if way == "scale" and (contour.changes_in_a_tiny_line() or contour.touches_by_a_digit()):
-                continue  # twice as long it may be a block, which has a side of its own; twice as far apart paths do not touch
+            if way == "scale" and (contour.changes_in_a_tiny_line() or contour.changes_from_a_point() or contour.touches_by_a_digit()):
+                continue  # twice as long it may be a block, which has a side of its own; twice as far apart paths do not touch, and twice as far from a centre one begins beside it
             bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way, as_large_as_the_tool(contour))
             if bad:
                 wrong[way] = wrong.get(way, 0) + 1
