@@ -212,7 +212,7 @@ TEST_F(ProgramCheckServices, AFileThatIsTooLongIsRefusedAtOnce) {
   EXPECT_EQ(client.outcome("start"), "refused");
 }
 
-// Gigabytes in which no block ends, of which a hole in a file is made, take no longer than a check may take, and keep nobody from ending the control.
+// A hole of gigabytes in a file is a block that is too long. To look for a number in it takes no longer than a check may take, and keeps nobody from ending the control.
 class CheckOfAHole : public ProgramCheckServices {
  protected:
   std::string check_text() override { return "check_seconds = 1\n"; }
@@ -223,8 +223,18 @@ class CheckOfAHole : public ProgramCheckServices {
   }
 };
 
-TEST_F(CheckOfAHole, TakesNoLongerThanACheckMay) {
+TEST_F(CheckOfAHole, IsNoBlock) {
   write_program("hole.nc", "");
+  std::filesystem::resize_file(in_programs("hole.nc"), std::uintmax_t{64} << 30);
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "hole.nc"}}), "");
+  const Json report = until(&client, "programs.check", [](const Json& now) { return now["state"] != "checking"; }, {{"name", "hole.nc"}});
+  EXPECT_EQ(report["state"], "refused");
+  EXPECT_EQ(report["text"].get<std::string>().find("hole.nc line 1: P33"), 0u) << report;
+}
+
+TEST_F(CheckOfAHole, TakesNoLongerThanACheckMay) {  // the number is looked for in all of it
+  write_program("hole.nc", "GOTO 10\n");
   std::filesystem::resize_file(in_programs("hole.nc"), std::uintmax_t{64} << 30);
   ServiceClient client(path_);
   ASSERT_EQ(client.outcome("programs.recheck", {{"name", "hole.nc"}}), "");
