@@ -288,7 +288,9 @@ def renewal(plant, viewer, boss, gateway):
     check(len(moved) > 0 and 10 * moved.count(False) < len(looks), f"the axis has moved in {moved.count(True)} of {len(moved)} looks")
     updates = [u for u in viewer.updates() if u[1] >= since]
     gap = max(b[1] - a[1] for a, b in zip(updates, updates[1:]))
-    check(all(b[0] > a[0] for a, b in zip(updates, updates[1:])) and gap < 1000, f"{len(updates)} updates of the watch list in their order; the longest gap was {gap:.0f} ms")
+    # On a busy computer a scan may last longer than from one update to the next: that has then the same scan.
+    late = [(a[0], b[0]) for a, b in zip(updates, updates[1:]) if b[0] < a[0]]
+    check(not late and gap < 1000, f"{len(updates)} updates of the watch list in their order {late[:3]}; the longest gap was {gap:.0f} ms")
     while at < len(text):
         piece = text[at : at + 3000]
         boss.call("nc_ServiceSetUp", "programs.data", upload=upload, begin=at, data=base64.b64encode(piece).decode("ascii"))
