@@ -90,12 +90,11 @@ TEST(CanEmergency, TheSameOneLaterIsANewLine) {
 
 // What a node says of itself does not hide why it cannot be used.
 TEST(CanEmergency, ItStandsBesideTheReasonForWhichANodeIsRefused) {
+  unsigned frames = 0;  // the machine speaks to its nodes at its end, too
   CanRig rig;
   rig.drives[1]->refuses[0x160002] = 0x06040041;
-  const auto chatter = [&] { rig.drives[1]->emergency(0x3220, 0x05); };
-  unsigned frames = 0;
   rig.bus.behind_frame = [&] {
-    if (++frames % 16 == 0) chatter();
+    if (++frames % 16 == 0) rig.drives[1]->emergency(0x3220, 0x05);
   };
   EXPECT_FALSE(rig.boot(2000));
   const std::string missing = rig.machine->service().missing();
