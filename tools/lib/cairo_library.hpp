@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cairo, loaded when the first picture is drawn. Linked as other libraries are, it would bring twenty more (X11 among them) into every start of ncsim, which
-// took half of the time of a short check, and a board without a screen would need them all to check a program. Private header: needs cairo's own headers.
+// cairo, loaded when the first picture is drawn. Linked as other libraries are, it would bring twenty more (X11 among them) into every start of ncsim, and
+// a board without a screen would need them all to check a program. Private header: needs cairo's own headers.
 #pragma once
 
 #include <cairo-svg.h>
