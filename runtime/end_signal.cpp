@@ -2,13 +2,17 @@
 // Signals at which a program ends properly. See end_signal.hpp.
 #include "runtime/end_signal.hpp"
 
+#include <atomic>
+
 namespace nc::rt {
 namespace {
 
-volatile std::sig_atomic_t g_signal = 0;
+// The kernel gives a signal to any thread of the process, so the handler may run beside the thread that waits: a volatile sig_atomic_t would be enough for one thread only.
+EndSignal g_signal = 0;
+static_assert(EndSignal::is_always_lock_free, "a handler of signals must not take a lock");
 
 extern "C" void note_end_signal(int number) {
-  g_signal = number;
+  g_signal.store(number);
 }
 
 }  // namespace
@@ -21,7 +25,7 @@ void catch_end_signals(std::initializer_list<int> numbers) {
 
 int end_signal() { return g_signal; }
 
-const volatile std::sig_atomic_t* end_signal_place() { return &g_signal; }
+const EndSignal* end_signal_place() { return &g_signal; }
 
 const char* signal_name(int number) {
   switch (number) {

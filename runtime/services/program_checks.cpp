@@ -69,12 +69,17 @@ void ProgramChecks::work() {
     in_work_ = {order.name, order.system};
     working_ = true;
     given_up_ = false;
+    const std::uint64_t arrived_before = arrivals_;
     lock.unlock();
     CheckReport report = run_(order, given_up_);
     report.time_ns = share::wall_ns();
+    bool is_old = !std::all_of(report.files.begin(), report.files.end(), is_unchanged);
     lock.lock();
     working_ = false;
     if (given_up_) continue;
+    // What has been read meanwhile is no longer what would run, and one that was refused may have missed what has come since: nobody is told of it.
+    is_old |= report.state == CheckState::kRefused && arrivals_ != arrived_before;
+    if (is_old && !is_waiting(in_work_) && enqueue(order, false)) continue;
     if (reports_.size() >= kMostKept) reports_.erase(reports_.begin());
     reports_[in_work_] = std::move(report);
   }
@@ -164,6 +169,7 @@ void ProgramChecks::arrived(const std::string& name) {
   gone(name);
   if (policy_ == ProgramCheck::kOff) return;
   const std::lock_guard lock(mutex_);
+  ++arrivals_;
   std::vector<Key> again = {{name, 0}};
   for (const auto& [key, report] : reports_)
     if (report.state == CheckState::kRefused) again.push_back(key);

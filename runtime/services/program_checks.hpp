@@ -135,6 +135,7 @@ class ProgramChecks final : public StartGate {
   Key in_work_;
   bool working_ = false, watching_ = false, ask_ = false, stop_ = false;
   std::uint64_t looks_begun_ = 0, looks_ended_ = 0;  // of watch(), at the heads
+  std::uint64_t arrivals_ = 0;                       // programs that have been written
   std::atomic<bool> given_up_{false};
   RtThread work_thread_, watch_thread_;
 };

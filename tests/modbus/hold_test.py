@@ -135,8 +135,7 @@ def main():
     running = []
 
     def start(folder):
-        running.append(subprocess.Popen([NCRTD, "--machine", os.path.join(folder, "machine.toml"), "serve"],
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        running.append(subprocess.Popen([NCRTD, "--machine", os.path.join(folder, "machine.toml"), "serve"], stdout=subprocess.DEVNULL))
         return running[-1]
 
     with tempfile.TemporaryDirectory() as folder:

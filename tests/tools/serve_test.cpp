@@ -165,7 +165,7 @@ class ServeTest : public testing::Test {
   nc::rt::RealClock clock;
   nc::rt::RuntimeParts parts;
   std::unique_ptr<nc::rt::Runtime> runtime;
-  volatile std::sig_atomic_t signal = 0;
+  nc::rt::EndSignal signal = 0;
   nc::tools::ServeOptions options;
   std::FILE* out = nullptr;
   std::string error;

@@ -4,17 +4,17 @@
 // scan stands still, the process is ended, even if everything else works.
 #pragma once
 
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
 
+#include "runtime/end_signal.hpp"
 #include "runtime/runtime.hpp"
 
 namespace nc::tools {
 
 struct ServeOptions {
-  const volatile std::sig_atomic_t* signal = nullptr;  // the service ends when this is not 0; set by the handler of signals
+  const nc::rt::EndSignal* signal = nullptr;  // the service ends when this is not 0; set by the handler of signals
   // Called at each look (every 5 ms), in the thread of serve().
   std::function<void()> look;
   // Called once, when the axes have been told to stop, and before the end: no command may come after it.
