@@ -79,8 +79,7 @@ struct Case {
 const Case kCases[] = {
     {"plane", "G1 G17 X0 F100 (HERE)\nG2 X30. R15.", "G18"},
     {"plane of a wrong radius", "G1 G17 X0 F100 (HERE)\nG2 X30. R5.", "G18"},
-    {"length", "G43 H2 Z5. G0 (HERE)\nZ1.", "G43 H5"},
-    {"length off", "G43 H2 Z5. G0 (HERE)\nZ1.", "G49"},
+    {"length", "G43 H2 Z5. G0 (HERE)\nZ1.", "H5"},
     {"work system", "G54 G0 X1. (HERE)\nX2.", "G55"},
     {"extended work system", "G54.1 P1 G0 X1. (HERE)\nX2.", "G54"},
     {"distance and unit", "G90 G21 G0 X1. (HERE)\nX2.", "G91 G20"},
@@ -119,6 +118,17 @@ TEST_P(KeptState, AnInterruptProgramChangesNothing) {
     EXPECT_EQ(interrupted.path, plain.path) << type_2;
     EXPECT_EQ(interrupted.events, plain.events) << type_2;
   }
+}
+
+// 12.2: G43 and G49 move their axis, and 13.12 gives back the modes behind a move in type 2 alone.
+TEST(KeptStateOfTheLength, ComesBackBehindItsMoveInTypeTwo) {
+  const char* const text = "G43 H2 Z5. G0 (HERE)\nZ1.";
+  const Path plain = run(text, nullptr, false).path;
+  EXPECT_EQ(plain, (Path{"rapid 20 0 7 0", "rapid 20 0 3 0"}));
+  EXPECT_EQ(run(text, "G49", true).path, plain);
+  EXPECT_EQ(run(text, "G43 H5", true).path, plain);
+  EXPECT_EQ(run(text, "G49", false).path, (Path{"rapid 20 0 7 0", "rapid 20 0 1 0"}));
+  EXPECT_EQ(run(text, "G43 H5", false).path, (Path{"rapid 20 0 7 0", "rapid 20 0 6 0"}));
 }
 
 TEST(KeptStateOfTheSpindle, SurfaceSpeedIsAnnouncedAgain) {

@@ -276,8 +276,8 @@ struct LengthRules {
   /// The code without H takes the last offset number, even if that is 0 (M700 12.2 (2) (d), App. 1 P170). Otherwise a last number of 0 counts
   /// as none, which is a fault (DGSHAPE G43).
   bool zero_is_number;
-  /// Beginning and end of compensation move the axis at once, also without a word for it (DGSHAPE G43). Otherwise the next command of the
-  /// axis moves it (M700 12.2).
+  /// Beginning and end of compensation move the axis at once, also without a word for it (M700 12.2 (1), App. 2; DGSHAPE G43). Otherwise the next command of the
+  /// axis moves it.
   bool moves_at_once;
   /// Beginning and end leave the axis where it is, but change its coordinate there; an incremental word counts from the new coordinate
   /// (RS-274/NGC 3.5.11). Otherwise the next command of the axis also makes up for the offset, even if it is incremental (M700 12.2).

@@ -65,7 +65,7 @@ inline constexpr Rules kRules = {
     .length = {.axis_by_words = false,
                .number_in_any_block = true,
                .zero_is_number = true,  // 13.1.1: H00 cancels
-               .moves_at_once = false,
+               .moves_at_once = true,
                .shifts_reading = false,
                .number_is_that_of_tool = false,
                .axis_on_plane = true},

@@ -265,6 +265,31 @@ static Execution set_length_of_block(BlockInHand& in) {
   return Execution::done;
 }
 
+/// M700 12.2 (1), (3)(c), DGSHAPE G43: the amount is gone by, or back, in the block of the code, together with what the block names and also where it names nothing. The axis is
+/// commanded to where it is. In the mode of an arc the amount goes as a line (M700 App. 2); that of G43 and G44, which may not stand beside an arc, is refused.
+static Execution go_by_length(BlockContext& in) {
+  State& state = in.state;
+  const uint32_t axis_bit = 1u << state.length_axis;
+  if ((in.words.target.axes() & axis_bit) != 0 || state.applied[state.length_axis] == state.length_value) return Execution::done;
+  const Function motion = state.modal.of(Mode::motion);
+  const bool cycle = in.words.cycle != nullptr || (state.cycle.kind != CycleKind::none && in.words.motion == nullptr);
+  if (is_line(motion) && !cycle) {
+    in.words.target.set(state.length_axis, TargetKind::incremental, 0);
+    return Execution::done;
+  }
+  LinearStyle style;
+  style.kind = motion == Function::rapid || cycle ? NC_MOVE_RAPID : NC_MOVE_LINE;
+  style.feed_mm_min = feed_mm_min(in);
+  if (is_arc(motion) && !cycle && in.words.target.axes() == 0 && !state.modal.is(Function::length_off)) return in.raise_function(Condition::length_beside_arc, state.modal.of(Mode::length));
+  if (style.kind == NC_MOVE_LINE) {
+    const Execution did = check_feed(in, Function::linear);
+    if (did != Execution::done) return did;
+    style.special_feed = special_feed(in);
+  }
+  move_linear(in, in.position(), axis_bit, style);
+  return Execution::done;
+}
+
 Execution set_length(BlockContext& in, Function function) {
   if (function == Function::length_of_block) return set_length_of_block(in);
   State& state = in.state;
@@ -291,21 +316,7 @@ Execution set_length(BlockContext& in, Function function) {
     state.length_value = length_amount(in);
   }
   if (rules.shifts_reading) state.applied[state.length_axis] = state.length_value;
-  if (!rules.moves_at_once) return Execution::done;
-  // Without a word for it the axis goes together with those that the block names.
-  const uint32_t axis_bit = 1u << state.length_axis;
-  if ((in.words.target.axes() & axis_bit) == 0 && in.words.one_shot == nullptr) {
-    const bool line = is_line(state.modal.of(Mode::motion)) && in.words.cycle == nullptr && (state.cycle.kind == CycleKind::none || in.words.motion != nullptr);
-    if (in.words.target.axes() != 0 && line) {
-      in.words.target.set(state.length_axis, TargetKind::absolute, in.position()[state.length_axis]);
-      return Execution::done;
-    }
-    LinearStyle style;
-    style.kind = state.modal.is(Function::rapid) || state.modal.feed <= 0 ? NC_MOVE_RAPID : NC_MOVE_LINE;
-    style.feed_mm_min = feed_mm_min(in);
-    move_linear(in, in.position(), axis_bit, style);
-  }
-  return Execution::done;
+  return rules.moves_at_once && in.words.one_shot == nullptr ? go_by_length(in) : Execution::done;  // beside a macro call it only becomes modal (M700 App. 2)
 }
 
 }  // namespace nc
