@@ -15,7 +15,7 @@ namespace {
 TEST(SharedTables, ToolDataOfTheOtherPartSystem) {
   Pair pair;
   pair.run(1, "#2001=5\nM30");
-  pair.run(0, "G43 H1\nG0 Z1.\n#101=#2001\nM30");
+  pair.run(0, "G0 G43 H1 Z1.\n#101=#2001\nM30");
   EXPECT_EQ(pair.machine(0).v[2], 6);
   EXPECT_EQ(pair.var(0, 101), 5);
   EXPECT_EQ(pair.bench.tool_now(1), 5);
@@ -327,7 +327,7 @@ TEST(SharedTables, TheHostWritesForAll) {
   pair.bench.tool(4, 8);
   EXPECT_EQ(nc_variable_name_set(pair.control(), 502, "WIDTH"), NC_OK);
   EXPECT_EQ(nc_parameter_set(pair.control(), 1, "1304", 0, "500"), NC_OK);
-  pair.run(1, "G43 H4\nG0 Z0\n[#WIDTH]=6\nM30");
+  pair.run(1, "G0 G43 H4 Z0\n[#WIDTH]=6\nM30");
   EXPECT_EQ(pair.machine(1).v[2], 8);
   EXPECT_EQ(pair.var(1, 502), 6);
   EXPECT_TRUE(std::isnan(pair.var(0, 502))) << "it is no longer common";

@@ -83,16 +83,16 @@ TEST(Cycle, BoreG85AndG89FeedBack) {
             (Path{"rapid 1 0 10", "stop", "rapid 1 0 2", "stop", "line 1 0 -8 F100", "dwell 0.25", "line 1 0 2 F100", "rapid 1 0 10", "end"}));
 }
 
-// G98 returns to the programmed level, which a tool length shifts like every other end point, also a length that was
-// pending when the cycle was commanded (M700 12.2, 13.1.1).
+// G98 returns to the programmed level, which a tool length shifts like every other end point, also a length that
+// comes in the block of the cycle, or in its mode (M700 12.2, 13.1.1).
 TEST(Cycle, ToolLengthThatComesIntoForceDisplacesTheInitialLevelToo) {
   Bench bench;
   bench.tool(11, 100).tool(2, 3).at(0, 0, 50);
   const Path drilled{"rapid 1 0 50", "rapid 1 0 102", "line 1 0 95 F100", "rapid 1 0 150"};
-  EXPECT_EQ(bench.run("G43 H11\nG98 G81 X1. Z-5. R2. F100\nM30").path(), drilled);
+  EXPECT_EQ(bench.run("G0 G43 H11\nG98 G81 X1. Z-5. R2. F100\nM30").path(), (Path{"rapid 0 0 150", "rapid 1 0 150", "rapid 1 0 102", "line 1 0 95 F100", "rapid 1 0 150"}));
   EXPECT_EQ(bench.at(0, 0, 50).run("G43 H11 G98 G81 X1. Z-5. R2. F100\nM30").path(), drilled);
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H2 G0 Z50.\nG98 G81 X1. Z-5. R2. F100\nG43 H11\nX2.\nM30").path(),
-            (Path{"rapid 0 0 53", "rapid 1 0 53", "rapid 1 0 5", "line 1 0 -2 F100", "rapid 1 0 53", "rapid 2 0 53", "rapid 2 0 102",
+            (Path{"rapid 0 0 53", "rapid 1 0 53", "rapid 1 0 5", "line 1 0 -2 F100", "rapid 1 0 53", "rapid 1 0 150", "rapid 2 0 150", "rapid 2 0 102",
                   "line 2 0 95 F100", "rapid 2 0 150"}));
 }
 

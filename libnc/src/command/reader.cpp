@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command/reader.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "dialect/precedence.hpp"
 #include "modal/modes.hpp"
 
@@ -137,6 +140,10 @@ Reading CommandReader::take_misc(double value) {
 Reading CommandReader::take_option(const Word& word, double value) {
   Command& w = w_;
   const FrontEnd& front = front_;
+  constexpr Role kOptions[] = {Role::option_in_position,   Role::option_in_position_drill, Role::option_device, Role::option_return_speed, Role::option_angle,
+                               Role::option_chamfer, Role::option_corner_radius};
+  const bool known = std::any_of(std::begin(kOptions), std::end(kOptions), [&](Role role) { return front.is(word, role); });
+  if (known && (word.flags & kWordNoValue) != 0 && !front.dialect->rules.block.bare_word_is_zero) return front_.refuse(Condition::format_error, slot_of(word));
   if (front.is(word, Role::option_in_position) || front.is(word, Role::option_in_position_drill)) {
     const double width = front.questions->length(front.core, Written{value, word.flags});
     if (!in_position_range(front.dialect->rules.range, width)) return front_.refuse(Condition::value_range, slot_of(word), value);

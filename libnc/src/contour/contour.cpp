@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contour/contour.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <new>
 
 #include "alarm/condition.hpp"
@@ -185,12 +187,21 @@ void ContourStage::stand_alone() {
 
 /// An item that does not move, behind a pending move without an end. A line has no meaning without the block that meets it, which the
 /// interpreter has said by an alarm; the program cannot stop in between.
+/// M700 13.9: the pair of blocks cannot meet.
+static bool is_of_meeting(Condition condition) {
+  constexpr Condition kOfMeeting[] = {Condition::geometric_option,        Condition::geometric_arc_option, Condition::geometric_circle_option,
+                                      Condition::geometric_parallel,      Condition::geometric_incremental, Condition::geometric_no_line,
+                                      Condition::geometric_address,       Condition::geometric_plane,      Condition::geometric_contact};
+  return std::find(std::begin(kOfMeeting), std::end(kOfMeeting), condition) != std::end(kOfMeeting);
+}
+
 void ContourStage::push_behind_meeting(const Item& item) {
   const bool needed = held(ready_).item.move.corner_mm > 0;
   const bool second_block = item.kind == ItemKind::mark && item.block_end && behind_mark_;
   const bool full = count_ >= kHeld - 2;
   if (!inhibits_read_ahead(item) && !second_block && !full) return;
-  if (needed && item.kind == ItemKind::alarm) return stop_by(item);
+  // An arc by its centre would be a whole circle by itself, but with a block behind it that fails as the second one of the pair it was none.
+  if (item.kind == ItemKind::alarm && (needed || is_of_meeting(item.alarm.condition))) return stop_by(item);
   if (needed) return fail(full ? Condition::pre_read : Condition::geometric_no_line, full ? held(ready_).item.source : item.source, 0);
   stand_alone();
   ready_ = count_;

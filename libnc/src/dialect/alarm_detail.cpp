@@ -49,6 +49,10 @@ bool of_cylinder_or_polar(const Dialect& dialect, const Fault& fault) {
 bool of_meeting_choice(const Dialect& dialect, const Fault& fault) { return fault.has_value && fault.letter != 0 && fault.letter == dialect.addresses.letter(Role::meeting_choice); }
 /// A coordinate that is given, with its value.
 bool of_coordinate(const Dialect&, const Fault& fault) { return fault.axis >= 0 && fault.has_value; }
+/// A curve that no compensation can displace (M700 6.11, 6.12): along the tool neither (12.3).
+bool of_free_curve(const Dialect& dialect, const Fault& fault) {
+  return find_function(dialect, 431) != nullptr && (of<Function::nurbs>(dialect, fault) || of<Function::exponential_positive>(dialect, fault) || of<Function::exponential_negative>(dialect, fault));
+}
 bool of_variable(const Dialect&, const Fault& fault) { return fault.letter == '#'; }
 /// The spindle turns in one direction, and so there is no tap (DGSHAPE).
 bool turns_one_way(const Dialect& dialect, const Fault&) {
@@ -207,6 +211,8 @@ constexpr Sentence kSentences[] = {
     {C::not_in_compensation, "A stitch and tool radius compensation exclude each other. End one of them with {stitch_off} or {comp_off} first.", nullptr, nullptr, of<Function::stitch_on>},
     {C::not_in_compensation, "Variable #{value} cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.",
      "The variable cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr, of_variable},
+    {C::not_in_compensation, "{word} is not possible while the radius of the tool is compensated, or its length along it. End that with {comp_off} or {length_off}.",
+     "A curve is not possible while the radius of the tool is compensated, or its length along it. End that with {comp_off} or {length_off}.", nullptr, of_free_curve},
     {C::not_in_compensation,
      "{word} is not possible while tool radius compensation is on. Cancel it with {comp_off} first.",
      "This is not possible while tool radius compensation is on. Cancel it with {comp_off} first."},

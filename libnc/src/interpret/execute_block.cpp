@@ -330,6 +330,12 @@ Execution check_motion_in_force(BlockInHand& in) {
   return in.raise_first(Condition::illegal_address, w.present & in.axis_words.all());
 }
 
+/// M700 13.8: ,A is the angle of a line of G01. In the formats of G12 and G13 (13.10) it is no address.
+Execution refuse_line_angle(BlockInHand& in) {
+  const bool circle = in.words.one_shot != nullptr && cuts_circle(in.words.one_shot->function);
+  return in.raise(circle ? Condition::illegal_address : Condition::geometric_option, Role::option_angle, in.words.angle.value);
+}
+
 }  // namespace
 
 Execution execute_motion_of_words(BlockContext& in) {
@@ -347,6 +353,7 @@ Execution execute_motion_of_words(BlockContext& in) {
     const Execution did = take_cycle_beside(in, *w.one_shot);
     if (did != Execution::done) return did;
   }
+  if (w.has_angle && (w.one_shot != nullptr || in.state.cycle.kind != CycleKind::none)) return refuse_line_angle(in);
   const Execution probes = take_probing(in);
   if (probes != Execution::done) return probes;
   const bool of_hole = in.state.cycle.kind != CycleKind::none && w.one_shot != nullptr && w.one_shot->function == Function::unidirectional;
@@ -542,9 +549,9 @@ Execution execute_read_words(Interpreter& in) {
   in.words.vector_in_space = had_one || has_vector_in_space();
   if (did != Execution::done) return did;
   if (!in.dialect->rules.length.stands_beside_arc && is_arc(in.state.modal.of(Mode::motion)) && w.target.axes() != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
-    // M700 App.2: an arc and G43/G44 in one block.
+    // M700 App.2: an arc and G43/G44 in one block; so of G43.1, along whose vector the tool would plunge while it goes round.
     for (const FunctionRow* row : w.functions)
-      if (row->function == Function::length_plus || row->function == Function::length_minus)
+      if (row->function == Function::length_plus || row->function == Function::length_minus || row->function == Function::length_along_tool)
         return in.raise_code(Condition::length_beside_arc, *row);
   }
   if (!w.functions.empty()) did = set_surface_speed(in);
@@ -568,7 +575,7 @@ Execution execute_read_words(Interpreter& in) {
   if (did == Execution::done && in.state.machine == before && at_once && leads) {
     // The vector is gone to at once (M700 12.3, 12.5): as a line that takes a feed (3.2, P62), which a block that only waits for its vector does not.
     if (w.vector_in_space && !in.state.modal.is(Function::rapid)) did = check_feed(in, Function::linear);
-    if (did == Execution::done) move_nowhere(in);
+    if (did == Execution::done) move_nowhere(in, w.vector_in_space);
   }
   return finish(in, did);
 }

@@ -343,8 +343,6 @@ inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   move.skip_away = style.skip_away;
   move.unclamps = style.unclamps;
   move.skip_speeds = style.skip_speeds;
-  move.comp.transparent = style.transparent;
-  if (style.transparent) in.state.moved_space = {};
   if (style.special_feed) apply_special_feed(in, move);
   if (style.corner != Corner::none) [[unlikely]] set_corner(in, move, style);
   if (style.tapping) move.rule.tapping = true;
@@ -369,12 +367,22 @@ bool stands_off_place(const InForce& in, uint32_t commanded) {
   return stands_off(in, commanded) || (commanded != 0 && in.state.moved_space.on);
 }
 
+/// The vectors are away for this move. Those in the plane only where an axis of the plane is commanded, because an axis moves by no word of another one: who lifts the tool by G53 Z in
+/// a contour would be drawn into the wall (14.4 (5): compensation is not cancelled). A thread is cut without radius compensation alone (6.7.1).
+[[gnu::noinline]] void take_vectors_away(BlockContext& in, Move& move, uint32_t commanded) {
+  move.comp.transparent = in.state.comp.side == 0 || stands_off(in, commanded);
+  move.leaves = move.leaves && move.comp.transparent;
+  move.leaves_space = move.kind != NC_MOVE_THREAD;
+  if (move.leaves_space) in.state.moved_space = {};
+}
+
 void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   const MoveFrame frame = frame_of_move(in, target, commanded);
   if (same_place(frame.start, frame.end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
   const AxisVec before = in.state.machine;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   set_style(in, move, style);
+  if (style.transparent) take_vectors_away(in, move, commanded);
   finish_mapped(in, frame, before, move);
   if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
 }
@@ -393,6 +401,7 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
   if (same_place(start, end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
+  if (style.transparent) [[unlikely]] take_vectors_away(in, move, commanded);
   if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
 }
 
@@ -413,7 +422,7 @@ void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& st
   if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
 }
 
-void move_nowhere(BlockContext& in) {
+void move_nowhere(BlockContext& in, bool leads_space) {
   const MoveFrame frame = frame_of_move(in, AxisVec{}, 0);
   const AxisVec before = in.state.machine;
   const auto moves = in.state.moves_since_comp_off;
@@ -421,6 +430,7 @@ void move_nowhere(BlockContext& in) {
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.start);
   in.state.moves_since_comp_off = moves;
   in.state.moved_side = in.state.comp.has_vector && in.state.comp.side != 0 ? in.state.comp.side : side;  // 12.4.3: the vector of I, J acts at once
+  move.leads_space = leads_space;
   move.kind = in.state.modal.is(Function::rapid) ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
   if (move.kind != NC_MOVE_RAPID) set_modal_feed(in, move, feed_mm_min(in));
@@ -440,9 +450,8 @@ static void move_machine_by(BlockContext& in, const AxisVec& machine, uint32_t c
   Move& move = begin_move(in, to_machine, start, end);
   move.kind = NC_MOVE_RAPID;
   move.exact_stop = true;
-  move.comp.transparent = true;
   move.leaves = leaves;
-  in.state.moved_space = {};
+  take_vectors_away(in, move, commanded);
   finish_mapped(in, MoveFrame{to_machine, start, end}, before, move);
   check_deceleration(in, NC_MOVE_RAPID);
 }
@@ -637,7 +646,7 @@ static double displaced_apart(const InForce& in, const MoveFrame& frame, unsigne
 
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
-  if (in.state.length_changed_by_handle) [[unlikely]] move_nowhere(in);  // M700 12.3: both ends of an arc lie on a circle, so the new vector is gone to first
+  if (in.state.length_changed_by_handle) [[unlikely]] move_nowhere(in, true);  // M700 12.3: both ends of an arc lie on a circle, so the new vector is gone to first
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);

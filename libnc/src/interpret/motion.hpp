@@ -66,7 +66,7 @@ Move& emit_shaped(BlockContext& in, const MoveFrame& frame, const MoveShape& sha
 /// A modal curve during which some other codes may not be commanded.
 inline bool bars_codes(Function motion) { return is_space_arc(motion) || is_exponential(motion); }
 /// Emits a move without length, which carries a compensation command in a block that does not move to the offset stage (offset/offset.hpp).
-void move_nowhere(BlockContext& in);
+void move_nowhere(BlockContext& in, bool leads_space = false);
 /// P20: a rotary axis is commanded to a position that is not a multiple of #2106 (M700 2.3).
 Execution check_index_positions(BlockInHand& in);
 /// Makes the motion that the words of the block command in the motion mode in force.

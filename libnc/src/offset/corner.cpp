@@ -291,6 +291,11 @@ ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double of
   return ContourJoint::single(perpendicular(before, offset));
 }
 
+bool is_outer(const Leg& before, const Leg& behind, double offset) {
+  const Turn turn = classify(before, behind, offset);
+  return turn == Turn::obtuse || turn == Turn::acute;
+}
+
 ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offset) {
   ContourJoint joint = two_perpendiculars(before, offset, behind, offset);
   joint.corner_arc = joint.n == 2;
@@ -298,8 +303,7 @@ ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offse
 }
 
 bool joint_of_outer_corner(const Leg& before, const Leg& behind, double offset, double arc_cos, ContourJoint* joint) {
-  const Turn turn = classify(before, behind, offset);
-  if (offset == 0 || (turn != Turn::obtuse && turn != Turn::acute)) return false;
+  if (offset == 0 || !is_outer(before, behind, offset)) return false;
   Vec2 w;
   const bool sharp = dot(before.u, behind.u) < arc_cos;
   const bool meets = !sharp && offset_exists(before, offset) && offset_exists(behind, offset) && intersection(before, offset, behind, offset, &w);

@@ -143,6 +143,9 @@ ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset
 /// The joint before a cancel block with I J K: `direction` is the hypothetical path's.
 ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset);
 
+/// The tool goes round the corner.
+bool is_outer(const Leg& before, const Leg& behind, double offset);
+
 /// The joint of G39: an arc about the programmed point from one perpendicular to the other.
 ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offset);
 

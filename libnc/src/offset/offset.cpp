@@ -39,6 +39,9 @@ bool without_length(const Move& move) {
   return !move.circular && move.start == move.end;
 }
 
+// A block that only asks for something of the compensation: nothing of it goes to the machine.
+bool is_command(const Move& move) { return without_length(move) && !move.leads_space; }
+
 // The first offset on the side of the second.
 double offset_on_side(double amount, double side) { return side == 0 ? amount : std::copysign(amount, side); }
 
@@ -276,7 +279,7 @@ void OffsetStage::intake_move(Held* held) {
   level_ = level_end_;
   level_end_ += rise(move);
   if (mode_ == Mode::off && move.comp.side == 0) {
-    if (without_length(move)) held->role = Role::command;
+    if (is_command(move)) held->role = Role::command;
     ++count_;
     return;
   }
@@ -389,9 +392,9 @@ void OffsetStage::intake_uncompensated(Held* held) {
   const Move& move = held->item.move;
   if (mode_ == Mode::pending) {
     mode_ = Mode::off;
-    if (without_length(move)) held->role = Role::command;
+    if (is_command(move)) held->role = Role::command;
   } else {
-    held->role = without_length(move) ? Role::command : Role::carried;
+    held->role = is_command(move) ? Role::command : Role::carried;
     cancelled_ = true;
     if (!decide_waiting()) return;
     Section* last = open();
@@ -452,8 +455,7 @@ bool OffsetStage::look_at_step(const Held& held) {
 void OffsetStage::turn_start(Section* start, const Held& turn) {
   const Compensation& comp = turn.item.move.comp;
   const Leg behind{unit({comp.vector[0], comp.vector[1]}), 0};
-  const nc::Turn corner = classify(start->end, behind, start->offset);
-  const bool goes_round = comp.type_b && (corner == nc::Turn::obtuse || corner == nc::Turn::acute);
+  const bool goes_round = comp.type_b && is_outer(start->end, behind, start->offset);
   start->joint = goes_round ? joint_corner_arc(start->end, behind, start->offset) : joint_at_start(start->end, behind, start->offset, false);
   if (goes_round) feed_bend(start->index, turn.item);
   start->jointed = start->commanded = true;
@@ -465,7 +467,7 @@ void OffsetStage::turn_start(Section* start, const Held& turn) {
 // (4)).
 void OffsetStage::intake_command(Held* held) {
   const Compensation& comp = held->item.move.comp;
-  held->role = without_length(held->item.move) ? Role::command : Role::carried;
+  held->role = is_command(held->item.move) ? Role::command : Role::carried;
   if (!decide_waiting()) return;
   Section* last = open();
   if (comp.corner_arc &&
@@ -663,6 +665,8 @@ bool OffsetStage::find_joint(const Section& before, const Compensation& comp_bef
     *joint = joint_at_start(before.end, behind.begin, offset_behind, comp_before.type_b);
   } else if (cancels && comp_behind.cancel_vector) {
     *joint = joint_at_cancel_vector(before.end, {comp_behind.vector[0], comp_behind.vector[1]}, before.offset);
+  } else if (cancels && comp_before.corner_arc && is_outer(before.end, behind.begin, before.offset)) {
+    *joint = joint_corner_arc(before.end, behind.begin, before.offset);
   } else if (cancels) {
     *joint = joint_at_cancel(before.end, behind.begin, before.offset, comp_before.type_b);
   } else if (comp_before.corner_arc && offset_behind == before.offset) {

@@ -275,7 +275,7 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   drop_feed_of_rapid(&move);
   scale_feed(programmed, &move);
   feed_scale_ = programmed.rule.inverse_time ? move.rule.scale : 0;
-  if (!has_length(move)) {
+  if (!has_length(move) && !move.leads_space) {
     note_move(held, resume_.compensated);
     return false;
   }

@@ -84,7 +84,7 @@ void SpaceStage::stop(double apart) {
 
 void SpaceStage::displace(Move& move) {
   SpaceVector next = move.space;
-  next.on = next.on && !move.comp.transparent && !is_nothing(next);
+  next.on = next.on && !move.leaves_space && !is_nothing(next);
   const AxisVec start = move.start, end = move.end;
   add(move.start, vector_);
   add(move.end, next);

@@ -6,7 +6,7 @@
 // own. So a line becomes another line, and the two radii of an arc are those of its displaced ends about the programmed centre, which stays
 // (12.5: "the centre does not shift"). The interpreter has compared them, but for arcs that a stage in front of this one has made or cut (13.7, 13.9): where those of
 // one are too far apart it is an alarm in its place. A move without a vector leads back, and so does one that takes the
-// vectors away for a while (Compensation::transparent); the one behind it leads out again. A command without a movement is a move without
+// vectors away for a while (Move::leaves_space); the one behind it leads out again. A command without a movement is a move without
 // length, which leads from one vector to the next.
 //
 // No move waits for the one behind it.

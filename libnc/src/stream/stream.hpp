@@ -68,7 +68,7 @@ enum class ItemKind : uint8_t { move, action, gate, sync, mark, alarm, end };
 /// How tool radius compensation acts on a move. side 0 = the move is not compensated.
 struct Compensation {
   int8_t side = 0;         ///< +1 left of the direction of travel (G41), -1 right (G42); 0 off
-  bool transparent = false;  ///< the offset vectors are taken away for this move and come back after it (G28, G53, G33): M700 12.4.2
+  bool transparent = false;  ///< the vectors in the plane are taken away for this move and come back after it (G28, G53, G33): M700 12.4.2
   bool has_vector = false; ///< G41/G42/G38 with I J K: `vector` is the direction given, no intersection is computed
   bool hold_vector = false;  ///< G38: keep the vector at the end of the move before
   bool corner_arc = false; ///< G39
@@ -180,6 +180,8 @@ struct Move {
   bool meets = false;            ///< the move before, which is pending, ends where this one begins
   bool flows = false;            ///< rapid traverse: the path goes on at speed where what is behind begins with its direction
   bool leaves = false;           ///< leads to a place of the machine, which is no part of a compensated contour: no corner is made in front of it
+  bool leads_space = false;      ///< goes nowhere by itself: it is made for the way from one vector in space to another (M700 12.3, 12.5)
+  bool leaves_space = false;     ///< it goes without the vectors in space (M700 12.3, 12.5), as one to a place of the machine does
   SettingsId settings = 0;       ///< parameters as they were when the move was made: stages and commit go by them alone
   TransformId transform = 0;
   uint32_t shape = 0;            ///< number of its MoveShape, counted from 1; 0 = the move is just the line or circle below

@@ -302,11 +302,18 @@ Execution set_length(BlockContext& in, Function function) {
     if (did != Execution::done) return did;
     state.modal.h_given = 1;
   }
-  in.words.comp_command = in.words.comp_command || (state.tool_length != 0 && function != Function::length_along_tool);  // that vector goes at once
+  const bool ends_along_tool = state.tool_length != 0 && function != Function::length_along_tool;
+  in.words.comp_command = in.words.comp_command || ends_along_tool;  // that vector goes at once
   state.tool_length = 0;
   if (function != Function::length_along_tool) state.length_by_handle = 0;
   if (function == Function::length_off) {
     state.length_value = 0;
+    // App. 2: the movement of G49 goes as a line in the mode of an arc, and so in front of the one beside it.
+    if (ends_along_tool && is_arc(state.modal.of(Mode::motion)) && in.words.target.axes() != 0 && in.words.one_shot == nullptr) {
+      const Execution did = check_feed(in, Function::linear);
+      if (did != Execution::done) return did;
+      move_nowhere(in, true);
+    }
   } else {
     if (rules.zero_is_number ? state.modal.h_given == 0 : state.modal.h == 0 && !in.words.has(Role::length_number)) return in.raise(Condition::no_offset_number, Role::length_number);
     if (function == Function::length_along_tool) return set_length_along_tool(in, amount_along_tool(in));
