@@ -46,6 +46,7 @@ LineBank::LineBank(const BankConfig& config, std::unique_ptr<LineChip> chip, Rep
 // ---- getting and losing the lines ----
 
 bool LineBank::open(Time now, const Values& initial, std::string* error) {
+  now_ = now;
   for (std::size_t i = 0; i < filter_.size(); ++i) filter_[i].shown = initial[i];
   pause_ = kFirstPause;
   trouble_.clear();
@@ -104,12 +105,15 @@ void LineBank::close() {
   if (outputs && !(up_ && chip_->write(levels(stop), &why))) report("safe values not written: " + why);
   if (up_) chip_->release();
   up_ = false;
+  if (const std::string rest = gate_.rest(); !rest.empty()) say(rest);
 }
 
 // ---- one poll ----
 
 void LineBank::poll(Time now, const Values& wanted, bool scanned) {
   std::string why;
+  now_ = now;
+  if (const std::string line = gate_.due(ns(now)); !line.empty()) say(line);
   if (scanned) watchdog_ ^= 1;
   if (!up_ && now < retry_at_) return;
   if (!up_ && request(now, wanted, &why) != Opening::kOpen) return wait_for_lines(now, why);
@@ -253,7 +257,11 @@ std::uint8_t LineBank::shown(std::size_t line) const {
   return config.loss_value;
 }
 
-void LineBank::report(const std::string& line) const {
+void LineBank::report(const std::string& line) {
+  if (gate_.takes(line, ns(now_))) say(line);
+}
+
+void LineBank::say(const std::string& line) const {
   if (report_) report_(config_.name + ": " + line);
 }
 

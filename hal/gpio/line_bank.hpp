@@ -17,6 +17,7 @@
 #include "hal/gpio/bank_config.hpp"
 #include "hal/gpio/edge_lines.hpp"
 #include "hal/gpio/quadrature.hpp"
+#include "hal/log_gate.hpp"
 
 namespace nc::hal::gpio {
 
@@ -85,7 +86,8 @@ class LineBank {
   bool kernel_debounces(std::size_t line) const { return setup_[line].debounce_ms != 0; }
   std::size_t line_of_encoder(std::size_t encoder) const { return config_.lines.size() + 2 * encoder; }
   void failed(Time now, const std::string& why);
-  void report(const std::string& line) const;
+  void report(const std::string& line);
+  void say(const std::string& line) const;
 
   const BankConfig config_;
   const std::unique_ptr<LineChip> chip_;
@@ -101,6 +103,9 @@ class LineBank {
   std::chrono::milliseconds pause_;
   Time retry_at_{};
   std::string trouble_;           // the last one that was reported
+  static constexpr unsigned kLinesAMinute = 20;
+  LogGate gate_{kLinesAMinute};   // a line that comes and goes fills no disk
+  Time now_{};                    // of the poll under way
 
   // ---- edges ----
   std::unique_ptr<EdgeLines> edge_lines_;

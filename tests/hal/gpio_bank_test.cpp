@@ -187,6 +187,30 @@ TEST_F(GpioBank, ErrorsThatAreNotInARowLoseNothing) {
   EXPECT_EQ(board.releases, 0u);
 }
 
+// A loose contact at the chip's bus: some lines a minute, one for all the others, and at the end what has not been said yet.
+TEST_F(GpioBank, AChipThatComesAndGoesFillsNoLog) {
+  ASSERT_TRUE(open());
+  const auto lines = [this] { return std::count(log.begin(), log.end(), '\n'); };
+  const LineBank::Time begin = now;
+  unsigned times = 0;
+  for (; now - begin < std::chrono::minutes(10); ++times) {
+    board.present = false;
+    for (unsigned i = 0; i < 3; ++i) poll();
+    ASSERT_FALSE(bank->up());
+    board.present = true;
+    poll(100);
+    ASSERT_TRUE(bank->up());
+  }
+  EXPECT_GT(times, 5000u);
+  EXPECT_GE(lines(), 20);
+  EXPECT_LE(lines(), 20 + 10);
+  EXPECT_NE(log.find("board: 1"), std::string::npos) << log;
+  EXPECT_NE(log.find(" more of these, the last one: "), std::string::npos) << log;
+  const auto before = lines();
+  bank->close();
+  EXPECT_EQ(lines(), before + 1) << log;
+}
+
 TEST_F(GpioBank, ALineThatAnotherTakesInBetweenIsAskedForUntilItIsFree) {
   ASSERT_TRUE(open());
   board.present = false;
