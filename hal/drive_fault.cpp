@@ -68,6 +68,7 @@ const char* trouble_text(DriveTrouble trouble) {
     case DriveTrouble::kJump: return "the scan asks for a jump that the axis cannot do";
     case DriveTrouble::kProbe: return "its touch probe has latched a place at which the axis was not";
     case DriveTrouble::kHomingNotBegun: return "its homing does not begin: its status stays that of the one before";
+    case DriveTrouble::kStep: return "its position has jumped farther than the axis can move: home it again";
     case DriveTrouble::kNone:
     case DriveTrouble::kEmergency: break;
   }

@@ -21,7 +21,8 @@ enum class DriveTrouble : std::uint8_t {
   kTwice,        // two nodes send frames with the same identifier
   kJump,         // the set-point of one SYNC is farther than the axis can ever move in it
   kProbe,        // its touch probe has latched a place at which the axis was not
-  kHomingNotBegun  // its status stays that of the homing before
+  kHomingNotBegun,  // its status stays that of the homing before
+  kStep          // its measured position has made a step that the axis cannot make
 };
 
 // Bits 0 to 15 are the EMCY code, 16 to 23 the error register, 24 to 30 the DriveTrouble.

@@ -20,6 +20,7 @@ struct SystemFeedback {
   std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
   std::uint32_t drive_fault_code[NC_MAX_AXES] = {};  // which fault, as drive_fault_text() of hal/drive_fault.hpp takes it
+  std::uint32_t place_lost = 0;       // bit per axis: since the last scan it has begun to count from a zero that nobody knows, also where a reset has taken the fault away
   std::uint32_t spindle_fault = 0;    // bit per spindle, as drive_fault
   std::uint32_t spindle_fault_code[NC_MAX_SPINDLES] = {};
   std::uint32_t not_following = 0;    // bit per axis: its drive does not follow the command, because it is off, not yet on, or moves by itself. Then the

@@ -23,6 +23,7 @@ using hal::canopen::NodeMap;
 using hal::canopen::ObjectValue;
 
 constexpr double kMaxIncrements = 2147483647.0;  // the position of a drive is a signed number of 32 bits
+constexpr double kMostCounted = 1 << 28;   // increments between two positions: an eighth of half the range
 constexpr double kMostUnsigned = 4294967295.0;   // speeds and acceleration of its homing have no sign
 constexpr unsigned kLastPdo = 512;
 constexpr double kMostCanSeconds = 600;
@@ -148,6 +149,14 @@ void check_speed(TableReader* reader, const AxisMap& map) {
     reader->error("velocity_scale", "makes " + number_text(most) + " of the largest velocity, which is beyond the 32 bits of 60FFh");
 }
 
+// The axis must stay far from half the range of a drive's position in the time in which positions may be missing, else nobody knows which way it went.
+void check_count(TableReader* reader, const BusMap& bus, const AxisMap& map) {
+  const double most = map.max_velocity * std::abs(map.increments_per_unit) * (bus.lost_after + 3) * bus.sync_us * 1e-6;
+  if (most > kMostCounted)
+    reader->error("encoder", "makes " + number_text(most) + " increments of the largest velocity in the time of lost_after (" + std::to_string(bus.lost_after) +
+                                 " SYNCs), and the 32 bits of a drive's position can be followed over " + number_text(kMostCounted));
+}
+
 void read_drive_axis(TableReader* reader, Config* config, NodeMap* node) {
   AxisMap map;
   reader->require("name");
@@ -170,6 +179,7 @@ void read_drive_axis(TableReader* reader, Config* config, NodeMap* node) {
     if (taken.system == map.system && taken.axis == map.axis) return reader->error("name", "axis " + map.name + " is on this drive already");
   check_range(reader, *config, map);
   check_speed(reader, map);
+  check_count(reader, config->canopen, map);
   node->axes.push_back(map);
 }
 

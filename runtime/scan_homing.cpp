@@ -21,7 +21,7 @@ constexpr unsigned kStopScans = 200;
 void Scan::look_at_homed(unsigned s, unsigned a) noexcept {
   const HomingConfig& homing = config_.equipment[s][a].homing;
   AxisWork& axis = axes_[s][a];
-  const bool blind = feedback_.lost || (feedback_.system[s].drive_fault >> a & 1u) != 0;
+  const bool blind = feedback_.lost || ((feedback_.system[s].drive_fault | feedback_.system[s].place_lost) >> a & 1u) != 0;
   switch (homing.kind) {
     case HomingKind::kNone:
       axis.homed = true;

@@ -218,7 +218,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
   feedback->lost = shown.lost;
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {
     SystemFeedback& out = feedback->system[s];
-    out.following_fault = out.drive_fault = out.not_following = 0;
+    out.following_fault = out.drive_fault = out.not_following = out.place_lost = 0;
     out.skip = out.skip_latched = 0;
     out.spindle_fault = 0;
     out.fin = bus_.completes_functions && strobe_[s];
@@ -246,6 +246,8 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.actual_ns = std::max(out.actual_ns, axis.measured_ns);
     out.actual_valid = true;
     if (!axis.follows) out.not_following |= bit;
+    if (axis.places_lost != places_lost_[i]) out.place_lost |= bit;
+    places_lost_[i] = axis.places_lost;
     if (shown.serial < reset_serial_) continue;  // these faults are from before the reset
     if (axis.following_fault) out.following_fault |= bit;
     if ((axis.fault & kFaulty) != 0) {

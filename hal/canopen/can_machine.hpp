@@ -73,6 +73,7 @@ class CanMachine final : public Hal {
     bool on = false, waits = false, begun = false;
   };
   std::array<HomingRequest, kMaxAxes> homing_{};
+  std::array<unsigned, kMaxAxes> places_lost_{};  // AxisShown::places_lost of the last scan
   bool strobe_[NC_MAX_SYSTEMS] = {};
   static constexpr unsigned kSpeedScans = 8;  // over which the speed of a spindle is measured
   struct Spindle {

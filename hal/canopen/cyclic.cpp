@@ -13,6 +13,8 @@ namespace {
 constexpr unsigned kFramesPerCycle = 256;  // more than a bus carries in a cycle of 1 ms
 constexpr double kSilences = 2.5;          // a node is lost after this number of heartbeat periods without a heartbeat
 constexpr double kStandstill = 0.005;      // mm or deg: more than the noise of an encoder
+constexpr double kStepSlack = 0.1;         // mm or deg: a step of an axis that stands, by which its drive may correct itself
+constexpr double kTurnSlack = 0.01;        // turns of a motor: the same of a spindle
 constexpr std::uint8_t kStateBootUp = 0, kStateOperational = 5;
 
 }  // namespace
@@ -38,6 +40,7 @@ Cyclic::Cyclic(const BusMap& bus, CanPort* port)
       Axis axis;
       axis.map = &map;
       axis.node = n;
+      axis.count = count_of(map);
       const double per_unit = std::abs(map.increments_per_unit);
       axis.loop = LostLoop(std::max<std::int64_t>(1, std::llround(kStandstill * per_unit)));
       if (map.holds_position()) axis.watch = WayWatch(map.velocity_gain, bus.sync_us * 1e-6, map.following_limit * per_unit, map.velocity_delay);
@@ -49,6 +52,15 @@ Cyclic::Cyclic(const BusMap& bus, CanPort* port)
       axes_.push_back(axis);
     }
   }
+}
+
+// What the axis can move in some time, in increments of its drive.
+PositionCount Cyclic::count_of(const AxisMap& map) const noexcept {
+  const std::int64_t sync_ns = bus_.sync_us * 1000LL;
+  if (!map.spindle) return {map.max_velocity * std::abs(map.increments_per_unit), kStepSlack * std::abs(map.increments_per_unit), sync_ns};
+  double turns = 0;
+  for (const double gear : map.spindle->gears) turns = std::max(turns, std::abs(gear));
+  return {map.spindle->law.most * turns * map.spindle->increments, kTurnSlack * map.spindle->increments, sync_ns};
 }
 
 void Cyclic::cycle(std::int64_t now_ns) noexcept {
@@ -154,13 +166,15 @@ bool Cyclic::take_tpdo(const CanFrame& frame) noexcept {
   return false;
 }
 
-// The position goes on counting when the drive's 32 bits overflow. It was measured with the last SYNC whose answers can have come: in the cycle of a SYNC that
+// The position goes on counting when the drive's 32 bits overflow, and a step that the axis cannot make is a fault (position_count.hpp). It was measured with the last SYNC whose answers can have come: in the cycle of a SYNC that
 // is the one before, since the frames are taken right behind it. What had been given before that SYNC was in force then (cyclic.hpp).
 void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
   const auto raw = static_cast<std::int32_t>(get_le(frame.data + 2, 4));
-  const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(raw) - static_cast<std::uint32_t>(axis->raw));
-  axis->position = axis->known ? axis->position + step : raw;
-  axis->raw = raw;
+  if (!axis->count.take(raw, sync_ns_)) {
+    lose_place(axis);
+    fault(axis, DriveTrouble::kStep);
+  }
+  axis->position = axis->count.position();
   axis->measured_at = given_[1];
   axis->measured_ns = sync_ns_;
   axis->status = static_cast<std::uint16_t>(get_le(frame.data, 2));
@@ -220,11 +234,18 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
       if (silent) fault(&axis, DriveTrouble::kHeartbeat);
       if (!node.operational || (operational && !silent)) continue;
       fault(&axis, bus_off_ ? DriveTrouble::kHeartbeat : DriveTrouble::kRestarted);  // has no effect when a more exact reason was noted before
-      axis.homed = false;  // nobody knows whether the drive has counted on
+      lose_place(&axis);  // nobody knows whether the drive has counted on
     }
     if (silent) set_phase(n, NodePhase::kAway);
     node.operational = operational && !silent;
   }
+}
+
+// The drive may count from another zero now, so its positions are taken as they come until the axis is led again, and it is not homed.
+void Cyclic::lose_place(Axis* axis) noexcept {
+  axis->homed = false;
+  axis->count.forget();
+  ++axis->places_lost;
 }
 
 // ---- to the scan ----
@@ -265,6 +286,7 @@ void Cyclic::publish() noexcept {
     all &= axis.known;
     out.follows = follows(i);
     out.homed = axis.homed;
+    out.places_lost = axis.places_lost;
     out.homing = axis.homing != Homing::kNo;
     out.following_fault = axis.following_fault || axis.loop.waits_for_reset();
     out.fault = axis.faulty ? kFaulty | fault_code(axis) : 0;

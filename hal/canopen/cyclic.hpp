@@ -22,6 +22,7 @@
 #include "hal/canopen/homing_answer.hpp"
 #include "hal/canopen/lost_loop.hpp"
 #include "hal/canopen/module_io.hpp"
+#include "hal/canopen/position_count.hpp"
 #include "hal/canopen/position_track.hpp"
 #include "hal/canopen/way_watch.hpp"
 #include "hal/drive_fault.hpp"
@@ -61,6 +62,7 @@ struct AxisShown {
   bool follows = false;       // the drive is enabled, in cyclic position, and bit 12 says that it follows the command
   bool homed = false;
   bool homing = false;
+  unsigned places_lost = 0;   // how often nobody has known any more whether the drive counts from the same zero; unlike a fault no reset takes it back
   bool following_fault = false;
   std::uint32_t fault = 0;    // drive_fault_code() | kFaulty
   std::int64_t edge = 0;      // position at the newest edge of a touch probe in the part system, in increments
@@ -132,8 +134,9 @@ class Cyclic {
     LostLoop loop;  // of an axis whose position is held here
     WayWatch watch;  // the same
     std::uint16_t status = 0, control = 0;
-    std::int32_t raw = 0;
-    std::int64_t position = 0;
+    PositionCount count;
+    std::int64_t position = 0;  // of `count`
+    unsigned places_lost = 0;   // as AxisShown::places_lost
     std::uint64_t measured_at = 0;  // as AxisShown::measured_at
     std::int64_t measured_ns = 0;   // as AxisShown::measured_ns
     bool known = false, fresh = false;
@@ -206,6 +209,8 @@ class Cyclic {
   void send_rpdo(const Axis& axis) noexcept;
   void send(const CanFrame& frame) noexcept;
   void fault(Axis* axis, DriveTrouble trouble) noexcept;
+  PositionCount count_of(const AxisMap& map) const noexcept;
+  void lose_place(Axis* axis) noexcept;
   std::uint32_t fault_code(const Axis& axis) const noexcept;
   void publish() noexcept;
   bool follows(unsigned index) const noexcept;

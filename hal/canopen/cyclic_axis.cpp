@@ -52,6 +52,7 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   axis.fresh = false;
   if (axis.known && axis.homing == Homing::kNo) axis.track.note(axis.position, axis.missed == 0);
   else axis.track.clear();  // a drive that homes changes its position without moving
+  if (axis.missed == bus_.lost_after) lose_place(&axis);  // in so long a time it may have gone anywhere
   if (axis.missed >= bus_.lost_after) fault(&axis, DriveTrouble::kNoPosition);
   if (silent_for_good(axis) && !axis.set_up_again) {
     axis.set_up_again = true;
@@ -127,6 +128,7 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
     return;
   }
   const bool followed = follows(index);
+  if (followed || axis.map->spindle) axis.count.begin();
   const DriveWish wish = wish_of(&axis, wanted, commanded);
   const bool in_mode = mode_[index].load(std::memory_order_acquire) == axis.map->mode;
   const bool homing = home_axis(index, &axis, wanted);
@@ -205,6 +207,7 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
     axis->homing = Homing::kMode;
     axis->homing_syncs = axis->mode_syncs = 0;
     axis->homed = false;
+    axis->count.forget();  // its drive redefines its position
     wanted_mode_[index].store(kModeHoming, std::memory_order_release);
   }
   if (axis->homing == Homing::kNo) return false;
@@ -274,7 +277,7 @@ void Cyclic::work_probe(Axis* axis) noexcept {
   } else if (axis->probe_function == 0) {
     if (!stored) axis->probe_function = static_cast<std::uint16_t>(kProbeEnable | (falling ? kProbeFalling : kProbeRising));
   } else if (stored) {
-    const auto back = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis->probe_raw) - static_cast<std::uint32_t>(axis->raw));
+    const auto back = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis->probe_raw) - static_cast<std::uint32_t>(axis->count.raw()));
     axis->probe = axis->position + back;
     axis->edge_waits = true;
   }

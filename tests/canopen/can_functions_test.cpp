@@ -195,8 +195,12 @@ TEST(CanFunctions, OneDriveGoesOffAndItsPositionIsFollowed) {
   EXPECT_FALSE(rig.drives[1]->enabled());
   EXPECT_TRUE(rig.drives[2]->enabled());
   EXPECT_EQ(rig.alarms(), "") << "it was asked for, and is no fault";
-  rig.drives[1]->plant().position += 3 * nc::test::kIncrementsPerMm;  // someone turns it
+  for (unsigned i = 0; i < 30; ++i) {
+    rig.drives[1]->plant().position += 0.1 * nc::test::kIncrementsPerMm;  // someone turns it
+    rig.step();
+  }
   rig.step(50);
+  EXPECT_EQ(rig.alarms(), "");
   EXPECT_NEAR(rig.command(1), 3.0, 0.001);
   EXPECT_NEAR(rig.command(0), -30.0, 0.001) << "the others stay where they are";
 }

@@ -60,8 +60,6 @@ class HostileNode {
       frame.length = 1;
       frame.data[0] = kStates[below(4)];
     }
-    // Positions that count on beyond 32 bits, three times and each time by more than any axis can go, would leave a turn of the counter.
-    if (frame.id > 0x180 && frame.id <= 0x184) frame.data[5] = (frame.data[4] & 0x80) != 0 ? 0xFF : 0;
     return frame;
   }
 
