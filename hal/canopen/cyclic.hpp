@@ -164,6 +164,7 @@ class Cyclic {
     std::int64_t probe = 0;      // the place that the drive has latched, in increments
     unsigned probe_syncs = 0;
     bool probe_on = false, edge_waits = false;  // it gives its signal; the drive has latched a place, and the signal waits until those of the other axes are known
+    unsigned edge_syncs = 0;     // SYNCs for which it has waited
     std::int64_t edge = 0;       // position at the newest edge of a probe in the part system
     PositionTrack track;
   };
@@ -204,7 +205,7 @@ class Cyclic {
   void give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept;
   void work_probe(Axis* axis) noexcept;
   void note_edges() noexcept;
-  bool knows_places(unsigned system) const noexcept;
+  bool knows_places(const Axis& probe) const noexcept;
   void note_edge(const Axis& probe) noexcept;
   void send_rpdo(const Axis& axis) noexcept;
   void send(const CanFrame& frame) noexcept;

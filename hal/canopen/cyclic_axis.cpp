@@ -280,13 +280,15 @@ void Cyclic::work_probe(Axis* axis) noexcept {
     const auto back = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis->probe_raw) - static_cast<std::uint32_t>(axis->count.raw()));
     axis->probe = axis->position + back;
     axis->edge_waits = true;
+    axis->edge_syncs = 0;
   }
 }
 
-// The positions that the axes of a part system had with the newest SYNC have come. One that stays away is a fault soon, and then nobody waits for it.
-bool Cyclic::knows_places(unsigned system) const noexcept {
+// Of each axis of the part system a position has come since the edge. One that stays away is a fault soon, and then nobody waits for it. They need not come with one SYNC: of drives that
+// answer by turns no SYNC has them all, and the edge would wait until the track has forgotten it.
+bool Cyclic::knows_places(const Axis& probe) const noexcept {
   for (const Axis& axis : axes_)
-    if (axis.map->system == system && !axis.faulty && nodes_[axis.node].operational && !axis.track.up_to_date()) return false;
+    if (axis.map->system == probe.map->system && !axis.faulty && nodes_[axis.node].operational && !axis.track.known_since(probe.edge_syncs)) return false;
   return true;
 }
 
@@ -295,7 +297,11 @@ bool Cyclic::knows_places(unsigned system) const noexcept {
 void Cyclic::note_edges() noexcept {
   std::uint32_t noted = 0;
   for (Axis& axis : axes_) {
-    if (!axis.edge_waits || !knows_places(axis.map->system)) continue;
+    if (!axis.edge_waits) continue;
+    if (!knows_places(axis)) {
+      ++axis.edge_syncs;
+      continue;
+    }
     axis.probe_on = true;
     axis.probe_syncs = kProbeHold;
     const std::uint32_t system = 1u << axis.map->system;

@@ -12,7 +12,7 @@ namespace nc::hal::canopen {
 
 class PositionTrack {
  public:
-  static constexpr unsigned kSyncs = 32;
+  static constexpr unsigned kSyncs = 128;  // more than an axis may be without a position (lost_after), and a slow drive with its answer
 
   void clear() noexcept { count_ = 0; }
   // `measured`: the position came with this SYNC; else it is the last one, and where the axis was says the next that comes.
@@ -23,8 +23,12 @@ class PositionTrack {
     count_ = std::min(count_ + 1, kSyncs);
   }
   bool empty() const noexcept { return count_ == 0; }
-  // The newest position has come with its SYNC.
-  bool up_to_date() const noexcept { return count_ == 0 || measured_[newest_]; }
+  // Whether a position has come since `syncs` SYNCs ago, with which the axis was on its way at that time. With 0: the newest one has.
+  bool known_since(unsigned syncs) const noexcept {
+    if (count_ == 0) return true;
+    const unsigned newest = older(0);
+    return measured_[place_of(newest)] && newest <= syncs;
+  }
 
   // The time since the axis was at `place` for the last time, in SYNCs. A place that is not farther from the newest position than the way of the last SYNC and
   // `slack` counts as the newest, because a drive may latch it behind the moment in which it measures its position. Negative when the axis was not there.

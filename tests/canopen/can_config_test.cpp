@@ -137,7 +137,7 @@ TEST(CanConfig, WhatADriveIsToldOfItsHomingFitsIntoItsObjects) {
   EXPECT_TRUE(errors_of(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 5000.0")).empty());
   expect_in(only_error(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 6000.0")), "axis[1].homing.acceleration: with 838860.8 increments per unit is beyond the 32 bits that a drive takes");
   expect_in(only_error(with("8388608", "fast = 6000.0, slow = 5.0, acceleration = 500.0")), "axis[1].homing.fast: with 838860.8");
-  expect_in(only_error(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 500.0, position = 2600.0")), "with 838860.8 increments per unit the soft limit -500 is beyond the 32 bits of a drive's position");
+  expect_in(only_error(with("16777216", "fast = 50.0, slow = 5.0, acceleration = 500.0, position = 1000.0")), "with 1677721.6 increments per unit the soft limit -500 is beyond the 32 bits of a drive's position");
   expect_in(only_error(replaced(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 500.0, position = 26.0"), "pitch", "zero = -26.0\npitch")), "axis[1].zero: is not homing.position");
   EXPECT_TRUE(errors_of(replaced(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 500.0, position = 26.0"), "pitch", "zero = 26.0\npitch")).empty());
   expect_in(only_error(with("100", "fast = 50.0, slow = 0.01, acceleration = 500.0")), "axis[1].homing.slow: with 10 increments per unit is 0 for the drive, which would not move");

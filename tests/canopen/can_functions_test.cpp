@@ -379,6 +379,19 @@ TEST(CanFunctions, ASkipSignalWaitsForTheAnswerBehindOneThatIsLost) {
   }
 }
 
+// Drives on a busy line, which answer by turns: no SYNC has the answers of all, and the edge has its place, however long that goes on.
+TEST(CanFunctions, ASkipSignalWaitsForNoSyncThatHasAllAnswers) {
+  for (const unsigned syncs : {4u, 40u, 90u}) {
+    SCOPED_TRACE(syncs);
+    SkipOfTwo by_turns([syncs](unsigned id, unsigned n) {
+      const bool of_x = id == 0x181 && n % 2 == 0, of_y = id == 0x182 && n % 2 == 1;
+      return n > 0 && n < syncs && (of_x || of_y) ? kNever : 0u;
+    });
+    EXPECT_NEAR(by_turns.found[0], by_turns.edge[0], 0.0006);
+    EXPECT_NEAR(by_turns.found[1], by_turns.edge[1], 0.0012);
+  }
+}
+
 // An answer that is always late is taken for that to the next SYNC: nothing in it says to which it is. Where all are late alike, as through a slow adapter, they belong together.
 TEST(CanFunctions, ASkipPositionWithAnswersThatAreAlwaysLate) {
   SkipOfTwo all([](unsigned id, unsigned) { return id >= 0x180 && id < 0x500 ? 2u : 0u; }, true);

@@ -194,7 +194,9 @@ def main():
     status, said, drives = run(python, block, ("module",), more=MODULE)
     print(said, *drives, sep="\n")
     assert status == 0, status
-    assert [int(line.split()[3]) for line in drives[:3]] == [5_000, 1_500, 2_000], drives
+    for line, place in zip(drives[:3], (5_000, 1_500, 2_000), strict=True):
+        # Where a scan is late an axis goes on for one SYNC as it did, and the next scan leads it back. A control that ends just then leaves it there: one increment, at the speed that it has at its end.
+        assert abs(int(line.split()[3]) - place) <= 1, drives
     assert drives[3] == "module 0 0 0 -321", drives  # at the end of the control
 
 
