@@ -162,7 +162,11 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
 // command_timeout_ms ends that. A jump that the axis can never follow is a fault, and the last set-point stays.
 std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
   const std::int64_t last = axis->target[1];
-  if (!fresh_command_) return bus_.sync_us > bus_.cycle_us || late_syncs_ > 1 ? last : last + (last - axis->target[2]);
+  if (!fresh_command_) {
+    const std::int64_t step = last - axis->target[2], slower = 2 * step - (axis->target[2] - axis->target[3]);  // an axis that brakes brakes on, and does not pass its end
+    const std::int64_t next = (step < 0) != (slower < 0) ? 0 : std::abs(slower) < std::abs(step) ? slower : step;
+    return bus_.sync_us > bus_.cycle_us || late_syncs_ > 1 ? last : last + next;
+  }
   const double most = (axis->map->max_velocity * kJumpFactor * bus_.sync_us * 1e-6 + kJumpSlack) * std::abs(axis->map->increments_per_unit);
   if (axis->map->max_velocity <= 0 || std::abs(static_cast<double>(wanted.target - last)) <= most) return wanted.target;
   fault(axis, DriveTrouble::kJump);
