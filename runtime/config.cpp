@@ -70,8 +70,10 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   try {
     root = toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
-    errors.add(static_cast<unsigned>(error.source().begin.line), "",
-               "syntax: " + std::string(error.description()));
+    const auto& place = error.source().begin;
+    const std::string said(error.description());
+    const bool of_number = said.find("integer") != std::string::npos || said.find("floating-point") != std::string::npos;
+    errors.add(static_cast<unsigned>(place.line), of_number ? key_at(text, place.line, place.column) : "", "syntax: " + said);
     return errors.take();
   }
   TableReader reader(root, "", &errors);

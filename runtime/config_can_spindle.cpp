@@ -15,7 +15,6 @@ using hal::canopen::SpindleMap;
 
 constexpr double kMostRatio = 1e6;
 constexpr std::size_t kMostGears = 8;
-constexpr double kMostLag_ms = 50;
 constexpr double kMostVelocity = 2147483647.0;  // 60FFh is a signed number of 32 bits
 
 // gears = [[motor, spindle], ...]: turns of the motor and of the spindle in each gear step.
@@ -31,7 +30,7 @@ void read_gears(TableReader* reader, SpindleMap* spindle) {
     const toml::array* pair = step.as_array();
     double motor = 0, tool = 0;
     if (pair == nullptr || pair->size() != 2 || !node_number((*pair)[0], &motor) || !node_number((*pair)[1], &tool)) return wrong();
-    if (!(motor > 0 && tool > 0 && motor <= kMostRatio && tool <= kMostRatio)) return wrong();
+    if (!(motor >= kLeastMeant && tool >= kLeastMeant && motor <= kMostRatio && tool <= kMostRatio)) return wrong();
     spindle->gears.push_back(motor / tool);
   }
 }
@@ -90,7 +89,7 @@ void read_drive_spindle(TableReader* reader, Config* config, NodeMap* node) {
   read_loop_gain(reader, "gain", 1, 200, config->canopen.sync_us, "the spindle", &spindle.law.gain);
   if (reader->choice("mode", {"cyclic", "profile"}, &mode) && mode == 1) map.mode = hal::canopen::kModeProfileVelocity;
   else map.mode = hal::canopen::kModeCyclicVelocity;
-  if (double lag_ms = 0; reader->number("tap_axis_lag_ms", &lag_ms, 0, kMostLag_ms)) spindle.tap_axis_lag_s = lag_ms / 1000;
+  if (double lag_ms = 0; reader->number("tap_axis_lag_ms", &lag_ms, quantity::kAxisLag)) spindle.tap_axis_lag_s = lag_ms / 1000;
   read_gears(reader, &spindle);
   read_gear_select(reader, map, config, &spindle);
   read_drive_point(reader, "forward", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kSpindleTurn, map, config, &spindle.forward);

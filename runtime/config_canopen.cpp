@@ -68,22 +68,25 @@ void check_homing_numbers(TableReader* reader, const AxisMap& map) {
 }
 
 // A drive that has homed says 0 at its mark (setup_plan.cpp), so `position` of the mark and `zero` are the same.
-void read_mark(TableReader* axis, TableReader* homing, AxisMap* map) {
+void read_mark(TableReader* axis, TableReader* homing, const nc_axis_config* moved, AxisMap* map) {
   double mark = 0;
-  homing->number("position", &mark, -1e6, 1e6);
+  if (homing->number("position", &mark, -1e6, 1e6) && moved != nullptr && moved->soft_limited) {
+    const double travel = moved->soft_max - moved->soft_min;  // it may lie behind a soft limit, and the axis gets there
+    if (mark < moved->soft_min - travel || mark > moved->soft_max + travel) homing->error("position", "is farther beyond soft_limits than the axis travels (" + number_text(travel) + ")");
+  }
   if (axis->find("zero") != nullptr && map->zero != mark)
     axis->error("zero", "is not homing.position: the drive says 0 at the mark of its homing, so leave zero out");
   map->zero = mark;
 }
 
-void read_homing(TableReader* axis, Config* config, AxisMap* map) {
+void read_homing(TableReader* axis, const nc_axis_config* moved, Config* config, AxisMap* map) {
   axis->table("homing", [&](TableReader& reader) {
     for (const char* key : {"method", "fast", "slow", "request", "done"}) reader.require(key);
     if (reader.integer("method", &map->homing_method, -128, 127) && map->homing_method == 0) reader.error("method", "0 is no homing: leave the table out");
-    reader.number("fast", &map->homing_fast, 1e-6, 1e6);
-    reader.number("slow", &map->homing_slow, 1e-6, 1e6);
-    reader.number("acceleration", &map->homing_acceleration, 1e-6, 1e9);
-    read_mark(axis, &reader, map);
+    reader.number("fast", &map->homing_fast, quantity::kSpeed);
+    reader.number("slow", &map->homing_slow, quantity::kSpeed);
+    reader.number("acceleration", &map->homing_acceleration, quantity::kAcceleration);
+    read_mark(axis, &reader, moved, map);
     reader.number("timeout_s", &map->homing_timeout_s, 0.1, 3600);
     check_homing_numbers(&reader, *map);
     read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kDriveHoming, *map, config, &map->homing_request);
@@ -166,9 +169,9 @@ void read_drive_axis(TableReader* reader, Config* config, NodeMap* node) {
   read_drive_place(reader, *node, &map);
   const double encoder = read_scale(reader, &map);
   reader->number("zero", &map.zero, -1e6, 1e6);
-  reader->number("following_error_limit", &map.following_limit, 0, 1e6);
+  reader->number("following_error_limit", &map.following_limit, quantity::kErrorLimit);
   read_mode(reader, config->canopen, encoder, &map);
-  read_homing(reader, config, &map);
+  read_homing(reader, found ? &config->nc.system[map.system].axis[map.axis] : nullptr, config, &map);
   read_probe(reader, &map);
   if (!found) return;
   map.max_velocity = config->nc.system[map.system].axis[map.axis].max_velocity;

@@ -49,16 +49,16 @@ void read_search(TableReader* reader, const nc_axis_config& axis, HomingConfig* 
   for (const char* key : {"direction", "fast", "creep"}) reader->require(key);
   unsigned word = 0;
   if (reader->choice("direction", {"-", "+"}, &word)) homing->direction = word == 0 ? -1 : 1;
-  const bool fast = reader->number("fast", &homing->fast, 1e-6, kMaxLength), creep = reader->number("creep", &homing->creep, 1e-6, kMaxLength);
+  const bool fast = reader->number("fast", &homing->fast, quantity::kSpeed), creep = reader->number("creep", &homing->creep, quantity::kSpeed);
   if (fast && axis.max_velocity > 0 && homing->fast > axis.max_velocity)
     reader->error("fast", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
   if (fast && creep && homing->creep > homing->fast) reader->error("creep", "must not be above fast (" + number_text(homing->fast) + ")");
   homing->travel = axis.soft_limited ? kTravelShare * (axis.soft_max - axis.soft_min) : kTravelOfTurn;
   if (!axis.soft_limited && !axis.rotary) reader->require("travel");
-  reader->number("travel", &homing->travel, 1e-3, kMaxLength);
+  reader->number("travel", &homing->travel, quantity::kWay);
   if (reader->find("index") != nullptr) reader->require("index_travel");
   else if (reader->find("index_travel") != nullptr) reader->error("index_travel", "is for an index pulse: index");
-  reader->number("index_travel", &homing->index_travel, 1e-3, kMaxLength);
+  reader->number("index_travel", &homing->index_travel, quantity::kWay);
 }
 
 void check_reference(TableReader* reader, const nc_axis_config& axis, const HomingConfig& homing) {
@@ -66,6 +66,14 @@ void check_reference(TableReader* reader, const nc_axis_config& axis, const Homi
   const double at = axis.reference[0];
   if (at < axis.soft_min || at > axis.soft_max)
     reader->error("kind", "the axis goes to its reference position, and that (" + number_text(at) + ") is not inside soft_limits: reference");
+}
+
+// From the mark to the reference position, which is inside the soft limits, and the mark is where the axis can go. So it is no farther than that, or than a turn where nothing ends it.
+void check_offset(TableReader* reader, const nc_axis_config& axis, const HomingConfig& homing) {
+  constexpr double kTurn = 360;
+  const double travel = axis.soft_limited ? axis.soft_max - axis.soft_min : axis.rotary ? kTurn : kMaxLength;
+  const double most = std::max(travel, searches(homing.kind) && !axis.rotary ? homing.travel : 0);
+  if (std::abs(homing.offset) > most) reader->error("offset", "is farther than the axis travels (" + number_text(most) + ")");
 }
 
 void read_homing(TableReader* reader, Config* config, unsigned s, unsigned a) {
@@ -91,14 +99,14 @@ void read_homing(TableReader* reader, Config* config, unsigned s, unsigned a) {
     read_name(reader, "dog", Part::kDog, hal::PointDirection::kInput, config, s, a);
   }
   read_name(reader, "index", Part::kIndex, hal::PointDirection::kInput, config, s, a);
-  reader->number("offset", &homing.offset, -kMaxLength, kMaxLength);
+  if (reader->number("offset", &homing.offset, -kMaxLength, kMaxLength)) check_offset(reader, axis, homing);
   if (homing.kind == HomingKind::kDrive) {
     for (const char* key : {"request", "done"}) reader->require(key);
     read_name(reader, "request", Part::kRequest, hal::PointDirection::kOutput, config, s, a);
     read_name(reader, "done", Part::kDone, hal::PointDirection::kInput, config, s, a);
   }
   homing.jog = homing.fast > 0 ? homing.fast : kJogShare * axis.max_velocity;
-  if (reader->number("jog", &homing.jog, 1e-6, kMaxLength) && axis.max_velocity > 0 && homing.jog > axis.max_velocity)
+  if (reader->number("jog", &homing.jog, quantity::kSpeed) && axis.max_velocity > 0 && homing.jog > axis.max_velocity)
     reader->error("jog", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
   check_reference(reader, axis, homing);
 }
@@ -171,8 +179,8 @@ void read_equipment(TableReader* axis, Config* config, unsigned s, unsigned a) {
   axis->table("brake", [&](TableReader& reader) {
     reader.require("point");
     read_name(&reader, "point", Part::kBrake, hal::PointDirection::kOutput, config, s, a);
-    reader.number("open_s", &equipment.brake.open_s, 0, 10);
-    reader.number("close_s", &equipment.brake.close_s, 0, 10);
+    reader.number("open_s", &equipment.brake.open_s, quantity::kBrakeTime);
+    reader.number("close_s", &equipment.brake.close_s, quantity::kBrakeTime);
     if (config->nc.system[s].axis[a].spindle != 0) reader.error("point", "the axis is a spindle, whose servo goes off by itself");
   });
   axis->table("screw", [&](TableReader& reader) { read_screw(&reader, config->nc.system[s].axis[a], config->nc.cycle_s, &equipment.screw); });
@@ -230,10 +238,10 @@ void read_sim_axis(TableReader* reader, Config* config) {
     sim.mark = range[1];
     if (!(range[0] > 0)) reader->error("index", "the first number, from mark to mark, must be above 0");
   }
-  reader->number("weight", &sim.weight, 0, 1e6);
+  reader->number("weight", &sim.weight, quantity::kWeight);
   if (own(equipment.brake.point)) sim.brake = equipment.brake.point;
-  if (lacks("brake_open_s", sim.brake >= 0, "brake")) reader->number("brake_open_s", &sim.brake_times.unclamp_s, 0, 10);
-  if (lacks("brake_close_s", sim.brake >= 0, "brake")) reader->number("brake_close_s", &sim.brake_times.clamp_s, 0, 10);
+  if (lacks("brake_open_s", sim.brake >= 0, "brake")) reader->number("brake_open_s", &sim.brake_times.unclamp_s, quantity::kBrakeTime);
+  if (lacks("brake_close_s", sim.brake >= 0, "brake")) reader->number("brake_close_s", &sim.brake_times.clamp_s, quantity::kBrakeTime);
 }
 
 }  // namespace

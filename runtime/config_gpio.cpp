@@ -31,7 +31,7 @@ bool valid_bank_name(const std::string& name) {
 // Reads a name that is no longer than the kernel allows. The path of a chip may be longer.
 bool read_kernel_name(TableReader* reader, const char* key, std::string* name) {
   std::string read;
-  if (!reader->string(key, &read)) return false;
+  if (!reader->string(key, &read, TableReader::Empty::kTaken)) return false;
   const std::size_t most = key == std::string_view("chip") && read.starts_with('/') ? 255 : kMaxKernelName;
   if (read.empty() || read.size() > most) {
     reader->error(key, "must have 1 to " + std::to_string(most) + " bytes");

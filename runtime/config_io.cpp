@@ -13,7 +13,6 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kLongestSimulatedTime = 3600;
 constexpr std::size_t kMaxPointName = 55, kMaxMeaning = 127;  // bytes that monitors can show
 
 bool valid_point_name(std::string_view name) {
@@ -266,7 +265,7 @@ void read_points(TableReader* root, Config* config) {
       point.direction = word == 0 ? hal::PointDirection::kInput : hal::PointDirection::kOutput;
     const bool bit = point.type == hal::PointType::kBit;
     reader.integer("initial", &point.initial, bit ? 0 : -0x80000000ll, bit ? 1 : 0xFFFFFFFFll);
-    if (reader.string("meaning", &point.meaning) && point.meaning.size() > kMaxMeaning)
+    if (reader.string("meaning", &point.meaning, TableReader::Empty::kTaken) && point.meaning.size() > kMaxMeaning)
       reader.error("meaning", "is longer than " + std::to_string(kMaxMeaning) + " bytes");
     const PlaceOnBus place = read_place_on_bus(&reader, point_bus_kinds(), point, config);
     point.bus = place.bus;
@@ -305,10 +304,10 @@ void read_sim(TableReader* root, Config* config) {
   root->table("sim", [&](TableReader& reader) {
     hal::SimConfig& sim = config->sim;
     reader.number("spindle_ramp_rpm_per_s", &sim.spindle_ramp_rpm_per_s, 1, 1e9);
-    reader.number("spindle_max_rpm", &sim.spindle_max_rpm, 0, 1e6);
-    reader.number("tool_change_s", &sim.tool_change_s, 0, kLongestSimulatedTime);
-    reader.number("tool_select_s", &sim.tool_select_s, 0, kLongestSimulatedTime);
-    reader.number("m_time_s", &sim.m_time_s, 0, kLongestSimulatedTime);
+    reader.number("spindle_max_rpm", &sim.spindle_max_rpm, quantity::kSpindleSpeed);
+    reader.number("tool_change_s", &sim.tool_change_s, quantity::kActionTime);
+    reader.number("tool_select_s", &sim.tool_select_s, quantity::kActionTime);
+    reader.number("m_time_s", &sim.m_time_s, quantity::kActionTime);
     read_sim_plant(&reader, config);
     read_sim_axes(&reader, config);
     reader.tables("solid", [&](TableReader& solid, std::size_t) { read_solid(&solid, config); });

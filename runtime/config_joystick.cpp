@@ -32,7 +32,7 @@ void read_stick(TableReader* reader, Config* config) {
   read_counts(reader, &entry);
   reader->number("dead_band", &entry.dead_band, 0.01, 0.9);
   const double most = config->nc.system[entry.system].axis[entry.axis].max_velocity;
-  if (reader->number("top_speed", &entry.top_speed, 1e-3, kMaxLength) && entry.top_speed > most)
+  if (reader->number("top_speed", &entry.top_speed, quantity::kSpeed) && entry.top_speed > most)
     reader->error("top_speed", "is more than the axis can do (max_velocity " + number_text(most) + ")");
   for (const JoystickConfig& other : config->joysticks)
     if (other.system == entry.system && other.axis == entry.axis && !name.empty()) reader->error("axis", "has a joystick already");

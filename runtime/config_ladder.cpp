@@ -32,10 +32,10 @@ void read_ladder(TableReader* root, Config* config) {
   root->table("ladder", [&](TableReader& reader) {
     LadderConfig& ladder = config->ladder;
     reader.require("program");
-    reader.string("program", &ladder.program);
+    reader.string("program", &ladder.program, TableReader::Empty::kTaken);
     ladder.program_place = {reader.line("program"), reader.path("program")};
-    reader.number("fin_timeout_s", &ladder.fin_timeout_s, 0, 3600);
-    reader.string("retain", &ladder.retain);
+    reader.number("fin_timeout_s", &ladder.fin_timeout_s, quantity::kActionTime);
+    reader.string("retain", &ladder.retain, TableReader::Empty::kTaken);
     ladder.retain_place = {reader.line("retain"), reader.path("retain")};
     reader.boolean("retain_counters", &ladder.retain_counters);
     std::vector<double> range;

@@ -13,7 +13,6 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kMaxRate = 1e9;
 constexpr double kLeastTolerance = 1e-4;  // mm; smallest tolerance of a smoothed path
 constexpr std::string_view kAxisLetters = "XYZABCUVW";
 
@@ -35,13 +34,13 @@ bool read_places(TableReader* reader, const char* key, std::size_t least, std::s
 void read_limits(TableReader* reader, AxisEntry* entry) {
   nc_axis_config& axis = entry->axis;
   for (const char* key : {"max_velocity", "max_acceleration"}) reader->require(key);
-  const bool limited = reader->number("max_velocity", &axis.max_velocity, 1e-3, kMaxRate);
-  reader->number("max_acceleration", &axis.max_acceleration, 1e-3, kMaxRate);
-  reader->number("max_jerk", &axis.max_jerk, 0, kMaxRate);
+  const bool limited = reader->number("max_velocity", &axis.max_velocity, quantity::kSpeed);
+  reader->number("max_acceleration", &axis.max_acceleration, quantity::kAcceleration);
+  reader->number("max_jerk", &axis.max_jerk, quantity::kJerk);
   axis.rapid = axis.max_velocity;
-  if (reader->number("rapid", &axis.rapid, 1e-3, kMaxRate) && limited && axis.rapid > axis.max_velocity)
+  if (reader->number("rapid", &axis.rapid, quantity::kSpeed) && limited && axis.rapid > axis.max_velocity)
     reader->error("rapid", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
-  reader->number("in_position", &axis.in_position, 1e-6, kMaxLength);
+  reader->number("in_position", &axis.in_position, quantity::kWindow);
   std::vector<double> numbers;
   if (read_places(reader, "soft_limits", 2, 2, &numbers)) {
     axis.soft_limited = true;
@@ -95,11 +94,11 @@ void read_axis(TableReader* reader, Config* config) {
   read_spindle_of_axis(reader, *config, entry.system, &entry.axis);
   read_limits(reader, &entry);
   double lag_ms = 5.0;
-  reader->number("servo_lag_ms", &lag_ms, 0, 1000);
+  reader->number("servo_lag_ms", &lag_ms, quantity::kLag);
   entry.sim.lag_s = lag_ms / 1000.0;
-  reader->number("following_error_limit", &entry.sim.following_error_limit, 0, kMaxLength);
-  reader->number("unclamp_s", &entry.sim.clamp.unclamp_s, 0, 3600);
-  reader->number("clamp_s", &entry.sim.clamp.clamp_s, 0, 3600);
+  reader->number("following_error_limit", &entry.sim.following_error_limit, quantity::kErrorLimit);
+  reader->number("unclamp_s", &entry.sim.clamp.unclamp_s, quantity::kActionTime);
+  reader->number("clamp_s", &entry.sim.clamp.clamp_s, quantity::kActionTime);
   for (const char* key : {"homing", "limit_switches", "brake", "screw"}) (void)reader->find(key);  // read_equipment() below
   if (entry.axis.name == 0) return;
 
@@ -206,16 +205,16 @@ void read_machine(TableReader* root, Config* config) {
     reader.string("name", &config->name);
     if (reader.choice("dialect", dialects(), &word)) nc.dialect = static_cast<std::uint8_t>(word);
     read_machine_kind(&reader, machine_kinds(), config);
-    reader.string("programs", &config->programs);
+    reader.string("programs", &config->programs, TableReader::Empty::kTaken);
     config->programs_place = {reader.line("programs"), reader.path("programs")};
-    reader.string("external", &config->external);
+    reader.string("external", &config->external, TableReader::Empty::kTaken);
     if (reader.choice("program_encoding", {"utf-8", "latin-1", "shift-jis"}, &word)) config->program_text.encoding = static_cast<Encoding>(word);
     unsigned copy_mb = 0;
     if (reader.integer("program_copy_mb", &copy_mb, 0, 1024)) config->program_text.copy_bytes = std::uint64_t{copy_mb} << 20;
-    reader.string("print", &config->print);
-    reader.string("variables", &config->variables);
+    reader.string("print", &config->print, TableReader::Empty::kTaken);
+    reader.string("variables", &config->variables, TableReader::Empty::kTaken);
     config->variables_place = {reader.line("variables"), reader.path("variables")};
-    reader.string("offsets", &config->offsets);
+    reader.string("offsets", &config->offsets, TableReader::Empty::kTaken);
     config->offsets_place = {reader.line("offsets"), reader.path("offsets")};
     if (same_file(config->offsets, config->variables))
       reader.error("offsets", "is the file of the common variables too: variables");
@@ -288,10 +287,10 @@ void read_motion(TableReader* root, Config* config) {
     unsigned word = NC_MOTION_TRAPEZOID;
     config->motion_given = reader.choice("mode", {"trapezoid", "optimal"}, &word);
     if (config->motion_given) nc.motion_mode = static_cast<std::uint8_t>(word);
-    reader.number("tolerance", &nc.path_tolerance, 0, 1);
+    reader.number("tolerance", &nc.path_tolerance, quantity::kPathTolerance);
     if (nc.path_tolerance > 0 && nc.path_tolerance < kLeastTolerance)
       reader.error("tolerance", "is 0 (a rest at each corner) or at least 0.0001 mm");
-    reader.number("retract_overlap", &nc.retract_overlap, 0, 100);
+    reader.number("retract_overlap", &nc.retract_overlap, quantity::kOverlap);
     reader.number("tap_most_apart", &nc.tap_most_apart, 0.05, 100);
     const std::string lacks = optimal_lacks(nc);
     if (nc.motion_mode == NC_MOTION_OPTIMAL && !lacks.empty()) reader.error("mode", "optimal needs limits of velocity, acceleration and jerk of every axis, " + lacks);

@@ -60,7 +60,7 @@ void read_host(TableReader* reader, LinkConfig* link) {
   refuse(reader, {"baud", "parity", "stop_bits", "rs485", "rts_delay_us"}, "is for a serial line: device = \"/dev/...\" and no host");
   reader->integer("port", &link->port, 1, 65535);
   reader->require("host");
-  if (!reader->string("host", &link->host)) return;
+  if (!reader->string("host", &link->host, TableReader::Empty::kTaken)) return;
   const bool graphic = std::all_of(link->host.begin(), link->host.end(), [](char c) { return c > ' ' && c <= '~'; });
   if (link->host.empty() || link->host.size() > 255 || !graphic)
     reader->error("host", "must be an address or the name of a host");
@@ -71,7 +71,7 @@ void read_host(TableReader* reader, LinkConfig* link) {
 void read_line(TableReader* reader, const Config& config, LinkConfig* link) {
   hal::modbus::SerialConfig& line = link->serial;
   refuse(reader, {"host", "port"}, "is for TCP: a link has either a host or a device");
-  if (reader->string("device", &line.device)) {
+  if (reader->string("device", &line.device, TableReader::Empty::kTaken)) {
     if (line.device.empty() || line.device[0] != '/' || line.device.size() > 255) reader->error("device", "must be the path of a serial line, such as \"/dev/ttyS1\"");
     for (const ModbusLinkConfig& other : config.modbus)
       if (!line.device.empty() && serial_key(other.link.serial.device) == serial_key(line.device))
@@ -172,7 +172,7 @@ void read_word_format(TableReader* reader, PointMap* map) {
   reader->boolean("signed", &is_signed);
   reader->boolean("float", &is_float);
   std::string order;
-  const bool wide = reader->string("words", &order) || is_float;
+  const bool wide = reader->string("words", &order, TableReader::Empty::kTaken) || is_float;
   if (!order.empty() || reader->find("words") != nullptr) {
     const auto read = word_order(order);
     if (read)

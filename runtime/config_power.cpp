@@ -25,9 +25,9 @@ void read_power(TableReader* root, Config* config) {
     PowerConfig& power = config->power;
     config->stop_s_place = {reader.line("stop_s"), reader.path("stop_s")};
     reader.number("stop_s", &power.stop_s, 0.001, 60);
-    reader.number("delay_s", &power.delay_s, 0, 10);
+    reader.number("delay_s", &power.delay_s, quantity::kDelay);
     reader.number("settle_s", &power.settle_s, 0.001, 60);
-    reader.string("place", &config->place);
+    reader.string("place", &config->place, TableReader::Empty::kTaken);
     config->place_place = {reader.line("place"), reader.path("place")};
     for (const auto& [other, what] : {std::pair<const std::string&, const char*>{config->variables, "common variables too: [machine] variables"},
                                       {config->offsets, "offsets too: [machine] offsets"},

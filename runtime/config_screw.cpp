@@ -78,7 +78,7 @@ void read_screw(TableReader* reader, const nc_axis_config& axis, double cycle_s,
   screw->turns = axis.rotary;
   screw->acceleration = axis.max_acceleration;
   screw->velocity = kSpeedShare * axis.max_velocity;
-  reader->number("backlash", &screw->backlash, 0, kMostError);
+  reader->number("backlash", &screw->backlash, quantity::kBacklash);
   if (reader->find("error") != nullptr) {
     read_table(reader, screw);
   } else {

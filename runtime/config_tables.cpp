@@ -21,7 +21,7 @@ std::string no_axis(std::string_view name) {
 // Name and pocket of a tool. The pocket is one in which none of the tools before it is.
 void read_label(TableReader* columns, const Config& config, ToolOffsetSetting* setting) {
   std::string name;
-  if (columns->string("name", &name)) {
+  if (columns->string("name", &name, TableReader::Empty::kTaken)) {
     const std::string trouble = tool_name_trouble(name);
     if (trouble.empty()) setting->name = name;
     else columns->error("name", trouble);
@@ -129,7 +129,7 @@ void read_work_offsets(TableReader* root, Config* config) {
           by_axis.error(axis_name, no_axis(axis_name));
         else if (const ConfigPlace* const other = place_of_offset(*config, setting); other != nullptr)
           by_axis.errors()->add_twice(setting.place, *other, name + " of this axis is already there");
-        else if (by_axis.number(axis_name, &setting.value, -kMaxOffset, kMaxOffset))
+        else if (by_axis.computed(axis_name, &setting.value, -kMaxOffset, kMaxOffset))
           config->work_offsets.push_back(setting);
       });
     });
@@ -153,12 +153,12 @@ void read_tool_offsets(TableReader* root, Config* config) {
       if (const toml::table* table = node.as_table()) {
         TableReader columns(*table, reader.path(name), reader.errors());
         for (unsigned c = 0; c < 4; ++c)
-          setting.given[c] = columns.number(kColumns[c], &setting.column[c], -kMaxOffset, kMaxOffset);
+          setting.given[c] = columns.computed(kColumns[c], &setting.column[c], -kMaxOffset, kMaxOffset);
         read_label(&columns, *config, &setting);
         columns.finish();
       } else {
         setting.given[NC_TOOL_LENGTH] =
-            reader.number(name, &setting.column[NC_TOOL_LENGTH], -kMaxOffset, kMaxOffset);
+            reader.computed(name, &setting.column[NC_TOOL_LENGTH], -kMaxOffset, kMaxOffset);
       }
       config->tool_offsets.push_back(setting);
     });

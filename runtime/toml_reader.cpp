@@ -43,6 +43,36 @@ unsigned line_of_too_deep_key(std::string_view text) {
   return 0;
 }
 
+// Only plain files are read here: a key in front of the first '=' of the line in which the value begins, and the last header above it.
+std::string key_at(std::string_view text, unsigned line, unsigned column) {
+  const auto trimmed = [](std::string_view part) {
+    const std::size_t begin = part.find_first_not_of(" \t\r"), end = part.find_last_not_of(" \t\r");
+    return begin == std::string_view::npos ? std::string_view() : part.substr(begin, end - begin + 1);
+  };
+  std::string header, key;
+  std::vector<std::string> arrays;
+  for (unsigned n = 1; n <= line && !text.empty(); ++n) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view row = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (n == line) row = row.substr(0, std::min<std::size_t>(row.size(), column));
+    const std::string_view plain = trimmed(row);
+    const std::size_t equals = row.find('=');
+    if (plain.starts_with("[") && equals == std::string_view::npos && n != line) {
+      const bool several = plain.starts_with("[[");
+      const std::size_t close = plain.find(']');
+      if (close == std::string_view::npos) continue;  // a row of an array
+      header = std::string(trimmed(plain.substr(several ? 2 : 1, close - (several ? 2 : 1))));
+      if (several) arrays.push_back(header);
+      if (several) header += "[" + std::to_string(std::count(arrays.begin(), arrays.end(), header)) + "]";
+      key.clear();
+    } else if (equals != std::string_view::npos && !plain.starts_with("#")) {
+      key = std::string(trimmed(row.substr(0, equals)));
+    }
+  }
+  return key.empty() || header.empty() ? key : header + "." + key;
+}
+
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -117,7 +147,27 @@ void TableReader::wrong_type(std::string_view key, const toml::node& node, const
   error(key, std::string("must be ") + wanted + ", not " + shown_type(node));
 }
 
-bool TableReader::number(std::string_view key, double* value, double min, double max) {
+// Nor is any farther from 0 than this: ranges of single keys are far nearer, and lists have none.
+constexpr double kMostMeant = 1e12;
+
+bool TableReader::is_meant(const toml::node& node, std::string_view key, double value) {
+  if (value == 0 || (std::abs(value) >= kLeastMeant && std::abs(value) <= kMostMeant)) return true;
+  errors_->add(line_of(node), path(key), "must not be " + number_text(value) + ", which is neither 0 nor anything that a machine can mean");
+  return false;
+}
+
+bool TableReader::number(std::string_view key, double* value, const Quantity& quantity) {
+  double read = 0;
+  if (!number(key, &read, quantity.or_zero ? 0 : quantity.least, quantity.most)) return false;
+  if (read < quantity.least && !(quantity.or_zero && read == 0)) {
+    error(key, "must be 0, or from " + number_text(quantity.least) + " to " + number_text(quantity.most) + ", not " + number_text(read));
+    return false;
+  }
+  *value = read;
+  return true;
+}
+
+bool TableReader::computed(std::string_view key, double* value, double min, double max) {
   const toml::node* node = find(key);
   if (node == nullptr) return false;
   double read = 0;
@@ -129,6 +179,13 @@ bool TableReader::number(std::string_view key, double* value, double min, double
     error(key, "must be from " + number_text(min) + " to " + number_text(max) + ", not " + number_text(read));
     return false;
   }
+  *value = read;
+  return true;
+}
+
+bool TableReader::number(std::string_view key, double* value, double min, double max) {
+  double read = 0;
+  if (!computed(key, &read, min, max) || !is_meant(*table_.get(key), key, read)) return false;
   *value = read;
   return true;
 }
@@ -162,7 +219,7 @@ bool TableReader::boolean(std::string_view key, bool* value) {
   return true;
 }
 
-bool TableReader::string(std::string_view key, std::string* value) {
+bool TableReader::string(std::string_view key, std::string* value, Empty empty) {
   const toml::node* node = find(key);
   if (node == nullptr) return false;
   const auto* read = node->as_string();
@@ -174,13 +231,17 @@ bool TableReader::string(std::string_view key, std::string* value) {
     error(key, "must not hold a NUL");
     return false;
   }
+  if (read->get().empty() && empty == Empty::kRefused) {
+    error(key, "must not be empty");
+    return false;
+  }
   *value = read->get();
   return true;
 }
 
 bool TableReader::choice(std::string_view key, std::span<const std::string_view> words, unsigned* index) {
   std::string word;
-  if (!string(key, &word)) return false;
+  if (!string(key, &word, Empty::kTaken)) return false;
   unsigned i = 0;
   std::string list;
   for (const std::string_view candidate : words) {
@@ -219,6 +280,7 @@ bool TableReader::numbers(std::string_view key, std::vector<double>* values, std
                    std::string("must hold finite numbers, not ") + shown_type(element));
       return false;
     }
+    if (!is_meant(element, key, number)) return false;
     read.push_back(number);
   }
   *values = std::move(read);

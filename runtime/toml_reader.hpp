@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "runtime/config.hpp"
+#include "runtime/quantity.hpp"
 
 namespace nc::rt {
 
@@ -54,6 +55,8 @@ class TableReader {
 
   // The value when the key is there, of the right type and in range; otherwise the target keeps its default.
   bool number(std::string_view key, double* value, double min, double max);
+  bool computed(std::string_view key, double* value, double min, double max);  // one that a program may have computed, as near to 0 as it likes
+  bool number(std::string_view key, double* value, const Quantity& quantity);
   template <class T>
   bool integer(std::string_view key, T* value, std::int64_t min, std::int64_t max) {
     std::int64_t read = 0;
@@ -62,7 +65,9 @@ class TableReader {
     return true;
   }
   bool boolean(std::string_view key, bool* value);
-  bool string(std::string_view key, std::string* value);
+  // A text of no letters is no name: only where it says that there is none it is taken.
+  enum class Empty : bool { kRefused, kTaken };
+  bool string(std::string_view key, std::string* value, Empty empty = Empty::kRefused);
   // One word of a list; *index gets its index in the list.
   bool choice(std::string_view key, std::span<const std::string_view> words, unsigned* index);
   bool choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index) {
@@ -91,6 +96,7 @@ class TableReader {
 
  private:
   bool integer64(std::string_view key, std::int64_t* value, std::int64_t min, std::int64_t max);
+  bool is_meant(const toml::node& node, std::string_view key, double value);
   void wrong_type(std::string_view key, const toml::node& node, const char* wanted);
 
   const toml::table& table_;
@@ -100,6 +106,8 @@ class TableReader {
   bool all_asked_ = false;  // each() has asked for every key there is
 };
 
+// The key whose value stands at a place of a text that is no TOML, as path() would write it: tables of an array are counted. Empty where no value stands there.
+std::string key_at(std::string_view text, unsigned line, unsigned column);
 // A finite number of a node (integer or float).
 bool node_number(const toml::node& node, double* value);
 // The shortest text that is read back as the same number.

@@ -30,15 +30,15 @@ void read_services(TableReader* root, Config* config) {
   root->table("services", [&](TableReader& reader) {
     ServicesConfig& services = config->services;
     reader.boolean("enabled", &services.enabled);
-    if (reader.string("socket", &services.socket)) services.socket_place = {reader.line("socket"), reader.path("socket")};
+    if (reader.string("socket", &services.socket, TableReader::Empty::kTaken)) services.socket_place = {reader.line("socket"), reader.path("socket")};
     if (services.socket.size() > services::kLongestSocketPath || services.socket.find('\0') != std::string::npos)
       reader.error("socket", "must have at most " + std::to_string(services::kLongestSocketPath) + " bytes");
     else if (!services.socket.empty() && services.socket[0] != '/')
       reader.error("socket", "must begin with /, because clients look for it from any folder");
     constexpr const char* kKeys[services::kRightCount] = {"view", "operate", "setup", "maintain"};
     for (unsigned right = 0; right < services::kRightCount; ++right) read_groups(&reader, kKeys[right], &services.holders[right]);
-    reader.string("changes", &services.changes);
-    reader.string("history", &services.history);
+    reader.string("changes", &services.changes, TableReader::Empty::kTaken);
+    reader.string("history", &services.history, TableReader::Empty::kTaken);
     if (!services.history.empty() && services.history == services.changes) reader.error("history", "is the file of the changes too");
     reader.integer("history_entries", &services.history_entries, 1000, 10'000'000);
     reader.integer("history_days", &services.history_days, 1, 36'500);

@@ -9,7 +9,7 @@ void read_share(TableReader* root, Config* config) {
   root->table("share", [&](TableReader& reader) {
     ShareConfig& share = config->share;
     reader.boolean("enabled", &share.enabled);
-    if (reader.string("name", &share.name) && !share.name.empty() && share::share_name(share.name) != share.name)
+    if (reader.string("name", &share.name, TableReader::Empty::kTaken) && !share.name.empty() && share::share_name(share.name) != share.name)
       reader.error("name", "must be lower case letters, digits and '-', at most 48, not \"" + share.name + "\"");
     reader.boolean("commands", &share.commands);
     share.commands_place = {reader.line("commands"), reader.path("commands")};

@@ -392,6 +392,13 @@ const Case kCases[] = {
      "part system 1 has no spindle 2"},
     {"syntax", "name = \"test\"", "name = \"test", "", "syntax"},
     {"duplicate_key", "name = \"test\"", "name = \"test\"\nname = \"again\"", "", "syntax"},
+    {"integer_of_70_bits", "name = \"Z\"", "name = \"Z\"\nmax_jerk = 1180591620717411303424", "axis[3].max_jerk", "is not representable in 64 bits"},
+    {"integer_of_70_bits_in_a_list", "name = \"Z\"", "name = \"Z\"\nreference = [0,\n  -1180591620717411303424]", "axis[3].reference", "is not representable in 64 bits"},
+    {"homing_offset_beyond_the_travel", "name = \"Z\"", "name = \"Z\"\nhoming = { kind = \"here\", offset = 5000.0 }", "axis[3].homing.offset", "is farther than the axis travels"},
+    {"no_name", "name = \"test\"", "name = \"\"", "machine.name", "must not be empty"},
+    {"denormal", "name = \"Z\"", "name = \"Z\"\nin_position = 1e-320", "axis[3].in_position", "must be from 1e-06 to 1e+06"},
+    {"tiny_where_0_is_none", "name = \"Z\"", "name = \"Z\"\nfollowing_error_limit = 0.00001", "axis[3].following_error_limit", "must be 0, or from 0.001 to 1e+06"},
+    {"denormal_in_a_list", "name = \"Z\"", "name = \"Z\"\nreference = [1e-320]", "axis[3].reference", "nor anything that a machine can mean"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ConfigErrors, testing::ValuesIn(kCases),
