@@ -46,6 +46,27 @@ TEST(LengthAlongTool, AloneItMovesAtOnceAndSoDoesItsEnd) {
             (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 51 0 0 90 0", "rapid 1 0 0 90 0", "rapid 2 0 0 90 0"}));
 }
 
+// In the contour of a tool radius as well, and not on the way of the next cut.
+TEST(LengthAlongTool, AloneInRadiusCompensationItMovesAtOnceAndSoDoesItsEnd) {
+  const char* const begin = "G90 G17 G1 F100\nG43.1 H1\nG41 D2 X30.\nX60.\n";
+  EXPECT_EQ(path_of(std::string(begin) + "G49\nY30.\nG40 X90.\nM30"),
+            (Path{"line 0 0 50 0 0 F100", "line 30 20 50 0 0 F100", "line 40 20 50 0 0 F100", "line 40 20 0 0 0 F100", "line 40 30 0 0 0 F100", "line 90 30 0 0 0 F100"}));
+}
+
+// A thread has no radius compensation (6.7.1), and keeps the length as it keeps that of G43.
+TEST(LengthAlongTool, AThreadKeepsIt) {
+  const auto last = [](const Path& path) { return path.back(); };
+  EXPECT_EQ(path_of("G90 S100 F100\nG1 G43.1 H1\nG33 Z-5. F1.\nM30"), (Path{"line 0 0 50 0 0 F100", "thread 0 0 45 0 0 F0"}));
+  EXPECT_EQ(path_of("G90 S100 F100\nG1 G43 Z0 H1\nG33 Z-5. F1.\nM30"), (Path{"line 0 0 50 0 0 F100", "thread 0 0 45 0 0 F0"}));
+  EXPECT_EQ(last(path_of("G90 S100 F100\nG1 G41 X0 Y0 Z0 I0 J0 K1. D2\nG33 Z-5. F1.\nM30")), "thread 0 0 15 0 0 F0");
+}
+
+TEST(LengthAlongTool, AnArcIsNoWayForIt) {  // App. 2
+  EXPECT_EQ(alarm_of("G90 G17 F100\nG43.1 H1 G2 X10. Y10. R10.\nM30"), "P70 L2");
+  EXPECT_EQ(path_of("G90 G17 F100\nG1 G43.1 H1\nG2 X10. Y10. R10.\nG49 X20. Y0 R10.\nM30"),
+            (Path{"line 0 0 50 0 0 F100", "cw 10 10 50 0 0 c10,0 F100", "line 10 10 0 0 0 F100", "cw 20 0 0 0 0 c10,0 F100"}));
+}
+
 // A piece of a corner would end on the way of the axes that turn the tool, with the vector of another place.
 TEST(LengthAlongTool, NoCornerIsCutWhereTheToolTurns) {
   EXPECT_EQ(alarm_of("F500\nG0 A30. C20.\nG43.1 Z0 H1\nG1 X20. ,R5.\nY20. A40.\nG49\nM30", "XYZac"), "P931 L4");
