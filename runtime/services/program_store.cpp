@@ -199,6 +199,7 @@ Outcome ProgramStore::begin(std::uint64_t session, const Call& call) {
   if (!read_digest(call.words(Field::kHash), &digest)) return Outcome::refused(Refused::kMalformed, "the SHA-256 is not 64 hexadecimal digits");
   if (size > limits_.program_bytes)
     return Outcome::refused(Refused::kNoSpace, "a program may have " + std::to_string(limits_.program_bytes) + " bytes, not " + std::to_string(size));
+  drop_silent();
   if (uploads_.size() >= kUploads) return Outcome::refused(Refused::kBusy, std::to_string(kUploads) + " programs are being written already");
   const Held folder(open_folder());
   if (folder.number < 0) return failed("the folder of programs");
@@ -211,6 +212,7 @@ Outcome ProgramStore::begin(std::uint64_t session, const Call& call) {
     return Outcome::refused(Refused::kNoSpace, "all programs together may have " + std::to_string(limits_.total_bytes) + " bytes, and have " + std::to_string(used));
   Upload upload;
   upload.session = session;
+  upload.last = std::chrono::steady_clock::now();
   upload.name = name;
   upload.hidden = kHidden + std::to_string(getpid()) + "-" + std::to_string(next_);
   upload.hash = std::move(digest);
@@ -245,6 +247,15 @@ void ProgramStore::drop(std::uint32_t number) {
   uploads_.erase(found);
 }
 
+// Who begins and never goes on keeps neither a place nor room on the disk from others.
+void ProgramStore::drop_silent() {
+  const auto now = std::chrono::steady_clock::now();
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [number, upload] : uploads_)
+    if (now - upload.last > limits_.silence) numbers.push_back(number);
+  for (const std::uint32_t number : numbers) drop(number);
+}
+
 Outcome ProgramStore::data(std::uint64_t session, const Call& call) {
   Upload* upload = find(session, call);
   if (upload == nullptr) return Outcome::refused(Refused::kNotFound, "there is no such upload");
@@ -258,6 +269,7 @@ Outcome ProgramStore::data(std::uint64_t session, const Call& call) {
     return outcome;
   }
   upload->written += bytes.size();
+  upload->last = std::chrono::steady_clock::now();
   upload->sum.add(bytes);
   return Outcome::with({{"begin", upload->written}});
 }

@@ -6,6 +6,7 @@
 // selected ones and those that are that large are not changed. Names are checked (is_program_name()), links are not followed.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -20,6 +21,7 @@ namespace nc::rt::services {
 struct StoreLimits {
   std::uint64_t program_bytes = 0, total_bytes = 0;  // of one program, of all together
   std::uint64_t copy_bytes = 0;                      // a larger program runs from its file
+  std::chrono::milliseconds silence{60'000};         // an upload that nobody has gone on with for so long makes room for another one
 };
 
 // To be used by one thread.
@@ -64,6 +66,7 @@ class ProgramStore {
     std::string name, hidden, hash;
     std::uint64_t size = 0, written = 0;
     bool replace = false;
+    std::chrono::steady_clock::time_point last;  // it was begun, or its newest piece came
     Sha256 sum;
   };
   int open_folder() const;
@@ -71,6 +74,7 @@ class ProgramStore {
   bool may_name(const std::string& name, Outcome* outcome) const;
   Upload* find(std::uint64_t session, const Call& call);
   void drop(std::uint32_t number);
+  void drop_silent();
   std::uint64_t used_bytes(int folder) const;
 
   const std::string folder_;

@@ -487,7 +487,7 @@ constexpr ServiceRow kRows[] = {
      "sets what the sections name and leaves everything else as it is. The whole text is checked before the first value is set, and it is one change"},
     {Service::kUndo, "undo", Right::kSetUp, Lane::kData, kNo, kUndoArguments, kDoneReply,
      "takes a change of tool offsets, tool life, work offsets or variables back: the last one of this user that was not taken back. Refused when a value was changed since"},
-    {Service::kProgramBegin, "programs.begin", Right::kSetUp, Lane::kData, kNo, kBeginArguments, kBeginReply, "begins to write a program; nobody sees it before programs.finish"},
+    {Service::kProgramBegin, "programs.begin", Right::kSetUp, Lane::kData, kNo, kBeginArguments, kBeginReply, "begins to write a program; nobody sees it before programs.finish. Four are written at a time: one that has been silent for a minute makes room for another"},
     {Service::kProgramData, "programs.data", Right::kSetUp, Lane::kData, kNo, kDataArguments, kDataReply, "the next piece; pieces come in their order"},
     {Service::kProgramFinish, "programs.finish", Right::kSetUp, Lane::kData, kNo, kUploadOnly, kDoneReply, "compares size and SHA-256, brings the program to the disk and puts it in its place"},
     {Service::kProgramAbandon, "programs.abandon", Right::kSetUp, Lane::kData, kNo, kUploadOnly, kDoneReply, "drops what was written; the end of the connection does that as well"},
@@ -507,7 +507,7 @@ constexpr ServiceRow kRows[] = {
      "records the values of signals in each scan, from the next one on, or from so many before a trigger on. The recording before it is forgotten; one that has not ended is busy"},
     {Service::kTraceStop, "trace.stop", Right::kMaintain, Lane::kData, kNo, {}, kDoneReply, "ends the recording; what it has can be read"},
     {Service::kLadderSwap, "ladder.swap", Right::kMaintain, Lane::kData, kNo, kSwapArguments, kLadderSwapReply,
-     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; refused with lines and reasons when it cannot. It stays until ncrtd ends: each start takes the file of the configuration"},
+     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; refused with lines and reasons when it cannot, and while another client has control. It stays until ncrtd ends: each start takes the file of the configuration"},
 };
 static_assert(std::size(kRows) == kServiceRows);
 

@@ -340,6 +340,8 @@ Outcome Services::change(const Session& session, const Call& call) {
     case Service::kParameterImport: outcome = import_parameters(&runtime_, call, &change); break;
     case Service::kImport: outcome = import_tables(&runtime_, call, &change); break;
     case Service::kLadderSwap:
+      // Another program can command anything of the NC, so nobody is surprised by it who has control.
+      if (const std::string controls = desk_.controlling(); !controls.empty() && controls != session.client) return Outcome::refused(Refused::kNoControl, "client " + controls + " has control");
       outcome = ladder_.swap(call, &change);
       if (outcome.ok) note(session, call, std::move(change), &outcome);
       return outcome;

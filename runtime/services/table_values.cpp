@@ -53,6 +53,10 @@ std::string parameter_now(const nc_control* control, const TablePlace& place) {
 }
 
 Outcome write_parameter(nc_control* control, const TablePlace& place, const std::string& value) {
+  if (place.axis != '\0') {
+    const ParameterMeaning meaning = parameter_meaning(nc_control_dialect(control), place.key);
+    if (!meaning.name.empty() && !meaning.by_axis) return Outcome::refused(Refused::kState, "the parameter is the same for all axes: leave the axis out (" + meaning.name + ")");
+  }
   switch (nc_parameter_set(control, api_system(place.system), place.key.c_str(), place.axis, value.c_str())) {
     case NC_OK: return Outcome::done();
     case NC_E_NOT_FOUND: return Outcome::refused(Refused::kNotFound, "there is no such parameter");

@@ -364,6 +364,22 @@ TEST(DgshapeCycle, Alarms) {  // DGSHAPE 5
 
 Outcome iso_at_ten(const std::string& text) { return Bench(NC_DIALECT_ISO).at(0, 0, 10).run("G21 G17 G90 G94 G98 S500 M3 F300\n" + text); }
 
+// M700 13.5.2 (3): "all the commands except M, P, H and L" are those of the hole, and these are those of the call, and of the return.
+TEST(Cycle, WordsOfACallBesideAHoleAreNotItsOwn) {
+  Bench bench;
+  bench.add("O9000", "M99\n");
+  const Outcome called = bench.at(0, 0, 50).run("G90 G0\nG82 X1. Z-5. R2. F100 P500\nX2. M98 P9000\nX3.\nG80\nM30");
+  EXPECT_EQ(called.alarm, "");
+  EXPECT_EQ(called.dwells(), (std::vector<double>{0.5, 0.5, 0.5}));
+  const Outcome repeated = bench.at(0, 0, 50).run("G90 G0\nG81 X1. Z-5. R2. F100\nG91 X2. M98 P9000 L2\nG80\nM30");
+  EXPECT_EQ(repeated.alarm, "");
+  EXPECT_EQ(repeated.end_work.v[0], 3);
+  bench.add("O9002", "X2. M99 P7\n");
+  const Outcome back = bench.at(0, 0, 50).run("G90 G0\nG82 X1. Z-5. R2. F100 P500\nM98 P9002\nN7 X3.\nG80\nM30");
+  EXPECT_EQ(back.alarm, "");
+  EXPECT_EQ(back.dwells(), (std::vector<double>{0.5, 0.5, 0.5}));
+}
+
 TEST(IsoCycle, LevelsCountByTheDistanceModeOfTheHole) {  // LinuxCNC: R2 and Z-5 are increments behind G91
   EXPECT_EQ(iso_at_ten("G81 X1 Y1 Z-5 R2\nG91 X10\nG80\nM2").path(),
             (Path{"rapid 1 1 10", "rapid 1 1 2", "line 1 1 -5 F300", "rapid 1 1 10", "rapid 1 1 12", "rapid 11 1 12", "line 11 1 7 F300", "rapid 11 1 12"}));

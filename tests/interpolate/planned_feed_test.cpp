@@ -69,6 +69,34 @@ TEST(PlannedFeed, TheHandleChangesF1WithinItsLimits) {  // M700 7.3
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+// M700 13.1.1 (6)(b), 7.11: a tap that follows its spindle, and the mode of tapping, in G95: by the turns, and by no override.
+TEST(PlannedFeed, ATapInFeedPerRevolutionFollowsItsSpindle) {
+  for (const bool optimal : {false, true}) {
+    SCOPED_TRACE(optimal);
+    ExecutorConfig c = feed_config();
+    c.optimal = optimal;
+    Program p(c);
+    Segment& s = p.line(at(100), 0);
+    s.feed_mm_rev = 1.5;
+    s.fixed_override = true;
+    p.mark();
+    p.end();
+    Machine m(c);
+    m.in.spindle[0].rev_per_s = 10;
+    m.feed(p);
+    m.start();
+    const auto settled = [&] {
+      for (int i = 0; i < 250; ++i) m.feed(p), m.cycle();
+      return m.out.feed_mm_min / 60;
+    };
+    EXPECT_NEAR(settled(), 15, 1e-3 * 15);
+    m.in.feed_override = 0.5;
+    EXPECT_NEAR(settled(), 15, 1e-3 * 15);
+    m.in.spindle[0].rev_per_s = 4;
+    EXPECT_NEAR(settled(), 6, 1e-3 * 6);
+  }
+}
+
 TEST(PlannedFeed, RandomTurnsOfTheHandleKeepTheLimits) {
   for (unsigned seed = 1; seed <= (sanitized() ? 1 : 8); ++seed) {
     SCOPED_TRACE(seed);

@@ -345,6 +345,18 @@ TEST(SwitchMirror, AboutWhereTheAxisStandsAtTheHeadOfTheProgram) {
   EXPECT_EQ(bench.at(0, 0, 0).run("G0 X16.\nM30").path(), (Path{"rapid 20 0 0"}));
 }
 
+// 14.5, 14.12: what is read behind G92 and G92.1 is where the axis stands: the centre is there from then on.
+TEST(SwitchMirror, CoordinatesAreSetWithoutMovingTheMachine) {
+  Bench bench;
+  nc_switches_set(bench.control(), 0, 0, 1);
+  EXPECT_EQ(bench.run("G90 G0 X20.\nG92 X0\nX0\nX5.\nG91 X5.\nM30").path(), (Path{"rapid -20 0 0", "rapid -25 0 0", "rapid -30 0 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("G92.1 X0\nG90 G0 X20.\nG92 X20. Y3.\nX20.\nX21.\nM30").path(), (Path{"rapid -20 0 0", "rapid -21 0 0"}));
+  Bench other;
+  other.param("1267/bit0", "1");
+  nc_switches_set(other.control(), 0, 0, 1);
+  EXPECT_EQ(other.run("G90 G0 X20.\nG92.1 X0\nX-20.\nX-15.\nM30").path(), (Path{"rapid -20 0 0", "rapid -25 0 0"}));
+}
+
 TEST(SwitchMirror, ByParameter) {  // #8211
   Bench bench;
   bench.param("8211", "1", 'Y').at(0, 10, 0);

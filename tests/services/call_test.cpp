@@ -63,6 +63,8 @@ TEST(ServiceCall, WhatIsWrongIsNamed) {
       {R"({"id": 1, "service": "jog", "args": {"axis": "XY", "velocity": 1}})", Refused::kMalformed, "bytes"},
       {R"({"id": 1, "service": "tools.set", "args": {"number": 1.5, "length": 1}})", Refused::kMalformed, "whole"},
       {R"({"id": 1, "service": "mdi", "args": {"blocks": "G0\u0000X1"}})", Refused::kMalformed, "control characters"},
+      {R"({"id": 1, "service": "select", "args": {"name": "\u0085a.nc"}})", Refused::kMalformed, "without a path"},
+      {R"({"id": 1, "service": "select", "args": {"name": "a\u202ecn.b"}})", Refused::kMalformed, "without a path"},
       {R"({"id": 1, "service": "programs.data", "args": {"upload": 1, "begin": 0, "data": "A"}})", Refused::kMalformed, "base64"},
       {R"({"id": 1, "service": "status", "args": {"a": {"b": {"c": {"d": {"e": 1}}}}}})", Refused::kMalformed, "deep"},
       {"{\"id\": 1, \"service\": \"select\", \"args\": {\"name\": \"M\xfcller.nc\"}}", Refused::kMalformed, "UTF-8: \"name\" has other bytes"},         // Latin-1

@@ -196,6 +196,19 @@ TEST_F(LadderServices, ThePowerIsThatOfTheNewProgram) {
   }
 }
 
+// A ladder program can command anything of the NC: it is not changed under the hands of who has control.
+TEST_F(LadderServices, WhoHasControlIsNotSurprised) {
+  ServiceClient client(path_), other(path_);
+  const Json program = {{"program", "LD SM400\nOUT M5\nEND\n"}};
+  ASSERT_EQ(other.outcome("control.take", {{"lease_ms", 60000}}), "");
+  EXPECT_EQ(client.outcome("ladder.swap", program), "no control");
+  EXPECT_EQ(client.call("ladder.rungs")["reply"]["swaps"], 0);
+  EXPECT_EQ(other.outcome("ladder.swap", program), "");
+  ASSERT_EQ(other.outcome("control.release"), "");
+  EXPECT_EQ(client.outcome("ladder.swap", program), "");
+  EXPECT_EQ(client.call("ladder.rungs")["reply"]["swaps"], 2);
+}
+
 TEST_F(LadderServices, ABadProgramIsRefusedWithAllItsLines) {
   ServiceClient client(path_);
   const Json reply = client.call("ladder.swap", {{"program", "LD SM400\nOUT nowhere\nLD M0\nAND\nOUT M1\nEND\n"}});

@@ -9,10 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <thread>
 
 namespace nc::rt::services {
 namespace {
@@ -143,6 +145,19 @@ TEST_F(Store, WhatAClientHasBegunEndsWithIt) {
   std::ofstream(folder_ + "/.nc-upload-1-1") << "left behind by a process that was killed";
   store_->clean();
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Store, WhoIsSilentMakesRoom) {
+  StoreLimits limits{1000, 2500, 100};
+  limits.silence = std::chrono::milliseconds(0);
+  store_ = std::make_unique<ProgramStore>(folder_, limits, [](const ProgramStore::Names&) { return ProgramStore::Use{}; });
+  for (unsigned n = 0; n < 2 * ProgramStore::kUploads; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_TRUE(begin("a" + std::to_string(n) + ".nc", std::string(1000, 'x')).ok) << n;
+    EXPECT_EQ(files(), 1u) << "and what it had taken of the disk";
+  }
+  ASSERT_TRUE(data(std::string(1000, 'x'), 0).ok);
+  ASSERT_TRUE(finish().ok);
 }
 
 TEST_F(Store, SizesAreBounded) {

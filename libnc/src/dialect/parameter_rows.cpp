@@ -103,6 +103,11 @@ bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double val
   return row == nullptr || row->bit >= 0 || row->takes(value);
 }
 
+bool parameter_name_takes(const Dialect& dialect, ParameterId id, double value) {
+  const ParameterName& row = dialect.parameters->names.row[id.value - ParameterId::kFirstName];
+  return value >= 0 && (row.takes == nullptr || row.takes(value));
+}
+
 bool parameter_takes_code(const Dialect& dialect, const ParameterKey& key) {
   constexpr Parameter kNamedByLetter[] = {Parameter::setting_unit, Parameter::plane_axis, Parameter::parallel_axis, Parameter::exponential_axis,
                                           Parameter::mill_axis, Parameter::polar_linear_axis, Parameter::work_turn_axis, Parameter::ascii_call_letter};

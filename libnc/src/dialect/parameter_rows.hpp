@@ -35,6 +35,7 @@ struct ParameterName {
   const char* values;    ///< unit, or the possible values with the default first; nullptr = `words` lists them
   const char* name;
   const char* section;   ///< section of the manual
+  bool (*takes)(double) = nullptr;  ///< tells whether it can have a value, where that is a number; nullptr: any number from 0 on
 };
 
 /// A fact about the machine that a program can read like a parameter. It comes from the configuration; no parameter holds it.
@@ -125,6 +126,8 @@ const ParameterName* find_parameter_name(const Dialect& dialect, const char* key
 
 /// The whole parameter can have this value. A parameter without a row takes any value.
 bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double value);
+/// The same of a parameter that has a name.
+bool parameter_name_takes(const Dialect& dialect, ParameterId id, double value);
 
 /// The whole parameter may be given as a letter, whose code is its value: the name of an axis, the letter of a call, the setting unit, or any without a row. As the value of another
 /// one a letter is a mistake, whose code nobody means.

@@ -7,6 +7,9 @@
 // A block is interrupted at one of its items. The interpreter goes back to the beginning of the block and enters the interrupt program from there, with the
 // machine where it stands. On return either the rest of the block is not executed (type 1, when the interrupt program has moved or given out M S T B), or
 // the block is read again and the items that have been executed already are dropped.
+#include <algorithm>
+#include <initializer_list>
+
 #include "interpret/calls.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
@@ -43,6 +46,16 @@ bool has_words_of_call(const BlockInHand& in) {
   for (const Auxiliary& m : in.words.auxiliary)
     if (m.function == MiscFunction::interrupt_on || calls_program(m.function)) return true;
   return false;
+}
+
+bool is_word_of_call(const BlockInHand& in, Role word) {
+  const AddressTable& addresses = in.dialect->addresses;
+  const auto is_one = [&](std::initializer_list<Role> roles) { return std::any_of(roles.begin(), roles.end(), [&](Role role) { return addresses.has(role) && addresses.same(word, role); }); };
+  return std::any_of(in.words.auxiliary.begin(), in.words.auxiliary.end(), [&](const Auxiliary& m) {
+    if (m.function == MiscFunction::interrupt_on) return is_one({Role::interrupt_program});
+    if (m.function == MiscFunction::return_sub) return is_one({Role::return_sequence, Role::return_passes});
+    return calls_program(m.function) && is_one({Role::call_program, Role::call_repeats, Role::call_sequence});
+  });
 }
 
 Execution enable_interrupt(Interpreter& in) {

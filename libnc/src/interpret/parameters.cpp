@@ -113,7 +113,7 @@ nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int a
 
 nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int axis, double number, unsigned* index, ParameterValue* old) {
   if (!(number < kTooLarge)) return NC_E_ARGUMENT;
-  if (id.is_name()) return number < 0 ? NC_E_ARGUMENT : put(id, bit, axis, false, ParameterValue{number}, index, old);
+  if (id.is_name()) return !parameter_name_takes(dialect, id, number) ? NC_E_ARGUMENT : put(id, bit, axis, false, ParameterValue{number}, index, old);
   const ParameterKey key{id.value, 0, bit};
   const ParameterRow* const row = find_parameter(dialect, key);
   if (bit < 0 && (!parameter_takes(dialect, key, number) || (row != nullptr && !machine_takes(row->what, number)))) return NC_E_ARGUMENT;

@@ -99,7 +99,7 @@ constexpr ParameterPlaces kPlaces = places_of(kNumbers);
 
 // 14.2.3: the manual has it so without a parameter, and no host is told so of a family.
 constexpr ParameterName kNames[] = {
-    {"power_off_clears_common", P::power_off_clears_common, 0, 0, nullptr, "0, 1", "power off clears #100 to #199 (in ncrtd)", "14.2.3"},
+    {"power_off_clears_common", P::power_off_clears_common, 0, 0, nullptr, "0, 1", "power off clears #100 to #199 (in ncrtd)", "14.2.3", whole<0, 1>},
 };
 
 // What other families have a parameter for and this one does not.

@@ -84,6 +84,7 @@ inline constexpr Rules kRules = {
               .q_is_shift = true,
               .words_of_all = true,  // 12.3.9, 12.3.10
               .bore_stop_dwells = false,       // 12.3.8
+              .step_dwells = false,            // 12.3.4
               .bore_waits_for_hand = true,     // 12.3.11
               .back_bore_is_upwards = true},   // 12.3.10
     .reference = {.remembered_axes_go = false,  // 6.1

@@ -70,6 +70,16 @@ static void set_zero_under_map(BlockInHand& in) {
   in.state.map_begins = false;
 }
 
+/// M700 14.5, 14.12: the coordinates are set "without moving the machine", so the words that are read next lead to where the axis stands also where a switch mirrors it: its mirror image has
+/// its centre there from now on.
+static void mirror_from_here(BlockInHand& in, uint32_t axes, const AxisVec& here) {
+  if ((in.state.switch_mirror & axes) == 0) return;
+  SwitchMirror mirror = in.records->switch_mirror;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((in.state.switch_mirror & axes) >> i & 1) != 0) mirror.center[i] = here[i] - in.state.applied[i] / 2;  // the length is no part of what is mirrored, and stays
+  in.change(&ProgramRecords::switch_mirror, mirror);
+}
+
 /// By how much the axes stand beside the program by a vector in space (12.3, 12.5).
 static AxisVec vector_in_place(const InForce& in) {
   const SpaceVector& vector = in.state.moved_space;
@@ -104,6 +114,9 @@ Execution do_coordinate_set(BlockContext& in) {
     const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] + beside[i] - length - in.frames.zero(in.state.work_system, i) - w.target[i];
     in.set_table(Frames::shift_key(i), shift);
   }
+  AxisVec here = in.state.machine;
+  for (unsigned i = 0; i < in.axis_count; ++i) here[i] += beside[i];
+  mirror_from_here(in, w.target.axes(), here);
   keep_rotation_center(in, zero_before);
   return Execution::done;
 }
@@ -158,6 +171,7 @@ Execution do_coordinate_preset(BlockContext& in) {
     if (in.state.work_system < 6) in.set_table(Frames::local_key(in.state.work_system, i), 0);
     in.state.applied[i] = 0;  // precaution (1): the reading becomes the machine value minus the offset; the length acts again with the next command
   }
+  mirror_from_here(in, w.target.axes(), in.state.machine);
   return Execution::done;
 }
 

@@ -159,7 +159,7 @@ void take_shift_words(BlockInHand& in) {
 Execution take_p(BlockInHand& in) {
   CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
-  if (!in.words.has(Role::cycle_dwell)) return Execution::done;
+  if (!in.words.has(Role::cycle_dwell) || is_word_of_call(in, Role::cycle_dwell)) return Execution::done;
   const double p = in.words.get(Role::cycle_dwell);
   const double ms = rules.dwell_in_seconds ? p * 1000 : std::trunc(p);  // of milliseconds decimals are ignored
   if (!(ms >= 0) || ms > rules.longest_dwell_ms) return in.raise(Condition::value_range, Role::cycle_dwell, p);
@@ -204,7 +204,7 @@ Execution hole_count(BlockInHand& in, uint32_t* count) {
   const Role second = Role::cycle_count_2, first = Role::cycle_count;
   const Role word = in.words.has(second) ? second : first;
   *count = 1;
-  if (!in.words.has(word) || is_shift_word(in, word)) return Execution::done;
+  if (!in.words.has(word) || is_shift_word(in, word) || is_word_of_call(in, word)) return Execution::done;
   if (!whole_number(in.words.get(word), count) || *count > in.dialect->rules.range.most_hole_repeats) return in.raise(Condition::value_range, word, in.words.get(word));
   return *count == 0 && in.dialect->rules.cycle.repeats_from_one ? in.raise(Condition::value_range, word, in.words.get(word)) : Execution::done;
 }

@@ -45,7 +45,7 @@ bool is_move(const Record& r) { return r.kind == ItemKind::move && r.segment.cur
 double feed_of_segment(const Segment& s, FeedBy* by) {
   *by = s.thread                       ? FeedBy::spindle
         : s.skip_speeds != nullptr     ? FeedBy::signals
-        : s.skip || s.fixed_override   ? FeedBy::constant
+        : s.skip || s.fixed_override   ? (s.feed_mm_rev > 0 ? FeedBy::fixed_turns : FeedBy::constant)
         : s.feed_mm_rev > 0            ? FeedBy::turns
         : s.digit_step_mm_s > 0        ? FeedBy::digit
                                        : FeedBy::override;

@@ -32,15 +32,15 @@ struct Limits {
 };
 
 /// What the feed of a piece goes by. `spindle` is a thread: by the turns and by nothing else, and the plan leaves a part of the limits to
-/// what keeps it with the spindle (interpolate/spindle_sync.hpp). `digit`: F1 to F5 with their handle. `signals`: a skip move whose signals
+/// what keeps it with the spindle (interpolate/spindle_sync.hpp). `fixed_turns`: a tap that follows its spindle by G95, or a skip move: no override concerns it. `digit`: F1 to F5 with their handle. `signals`: a skip move whose signals
 /// change its feed.
-enum class FeedBy : uint8_t { override, constant, turns, spindle, digit, signals };
+enum class FeedBy : uint8_t { override, constant, turns, fixed_turns, spindle, digit, signals };
 
 /// The feed is one per revolution.
-inline bool goes_by_spindle(FeedBy by) { return by == FeedBy::turns || by == FeedBy::spindle; }
+inline bool goes_by_spindle(FeedBy by) { return by == FeedBy::turns || by == FeedBy::fixed_turns || by == FeedBy::spindle; }
 
 /// A cut with such a feed goes at that of dry run, when dry run is on.
-inline bool may_be_dry(FeedBy by) { return by != FeedBy::constant && by != FeedBy::signals; }
+inline bool may_be_dry(FeedBy by) { return by != FeedBy::constant && by != FeedBy::fixed_turns && by != FeedBy::signals; }
 
 /// F1 to F5: what the handle does to a feed.
 struct DigitFeed {
@@ -97,6 +97,7 @@ inline double feed_of(const Piece& p, const Limits& limits) {
   switch (p.by) {
     case FeedBy::constant: return std::fmin(p.feed, feed_of_turning(p, limits));
     case FeedBy::turns: return p.feed * by.feed * by.turns;
+    case FeedBy::fixed_turns:
     case FeedBy::spindle: return p.feed * by.turns;
     case FeedBy::signals: return by.skip_feed > 0 ? by.skip_feed : p.feed;
     case FeedBy::digit:

@@ -250,6 +250,7 @@ Limits OptimalPlanner::unbound(const Start& start) const {
   switch (p.by) {
     case FeedBy::constant: return l;
     case FeedBy::signals: by.skip_feed = std::max(feed_of(p, l), most); return l;
+    case FeedBy::fixed_turns:
     case FeedBy::spindle: by.turns = std::max({by.turns, chain_.scale.turns, most / p.feed}); return l;
     case FeedBy::turns: by.turns = std::max({by.turns, chain_.scale.turns, by.turns > 0 ? 0.0 : 1.0}); break;
     case FeedBy::digit: by.pulses[p.digit.digit] = HUGE_VAL; break;
