@@ -167,7 +167,6 @@ class HxWriter : public NaiveWriter {
       }
       depth = depth - q_ > end + 1e-9 ? depth - q_ : end;
       feed_z(depth);
-      if (code_ == 73) dwell(p_);
     }
     rapid_z(back);
   }

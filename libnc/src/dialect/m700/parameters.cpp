@@ -206,7 +206,7 @@ static_assert(rows_differ());
 // prohibit pre-reading and the order of M S T B and motion are left to the machine (4.2, 9.1). macro_extensions and negative_count are options
 // (docs/macros.md), and comments behind ';' exist only in other families.
 constexpr ParameterName kNames[] = {
-    {"UNIT*10", P::tenfold, 0, 1, nullptr, "1, 10", "tenfold: numbers without a point, times this", "2.2", [](double value) { return value == 1 || value == 10; }},
+    {"UNIT*10", P::tenfold, 0, 1, nullptr, "1; 1-10000", "numbers without a point, times this", "2.2", whole<1, 10000>},
     {"DPRNT_BLANK", P::print_blanks, 0, 0, nullptr, "0, 1", "DPRNT prints blanks for leading zeros", "13.5.8", whole<0, 1>},
     {"macro_extensions", P::macro_extensions, 0, 0, nullptr, "0, 1", "IF ... THEN of later models", "13.5.7", whole<0, 1>},
     {"semicolon_comments", P::semicolon_comments, 0, 0, nullptr, "0, 1", "what stands behind ';' in a line is a comment, not P33", "3.2", whole<0, 1>},
