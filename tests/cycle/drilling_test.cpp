@@ -380,6 +380,22 @@ TEST(Cycle, WordsOfACallBesideAHoleAreNotItsOwn) {
   EXPECT_EQ(back.dwells(), (std::vector<double>{0.5, 0.5, 0.5}));
 }
 
+// HX 2.4.3: M98 has Q and R, too, and no way in rapid goes by them. 12.3.9: K is the count in each plane, and the shift is that of Q.
+TEST(HxCycle, WordsOfACallAndTheCountAreNoDataOfTheHole) {
+  Bench bench(NC_DIALECT_HX);
+  bench.param("3070", "0").param("3071", "0");
+  bench.add("O100", "N5 M8\nN20 M9\nM99\n");
+  const Path drilled{"rapid 1 0 50", "rapid 1 0 20", "line 1 0 -3 F100", "rapid 1 0 50", "rapid 2 0 50", "rapid 2 0 20", "line 2 0 -3 F100", "rapid 2 0 50"};
+  const Outcome called = bench.at(0, 0, 50).run("G90 G21 G17 G0 M3 S500\nG81 X1. R20. Z-3. F100.\nX2. M98 P100 Q5 R20\nG80\nM30");
+  EXPECT_EQ(called.alarm, "") << called.alarm_detail;
+  EXPECT_EQ(called.path(), drilled);
+  const auto bored = [&](const std::string& words) { return bench.at(0, 0, 50).run("G90 G21 G18 G0 M3 S500\nG76 X1. Z1. R-2. Y-5. Q1. " + words + "F100.\nG80\nM30"); };
+  EXPECT_EQ(bored("").alarm, "");
+  EXPECT_EQ(bored("K1 ").path(), bored("").path());
+  EXPECT_EQ(bored("K0 ").path(), Path{});
+  EXPECT_GT(bored("K2 ").path().size(), bored("").path().size());
+}
+
 TEST(IsoCycle, LevelsCountByTheDistanceModeOfTheHole) {  // LinuxCNC: R2 and Z-5 are increments behind G91
   EXPECT_EQ(iso_at_ten("G81 X1 Y1 Z-5 R2\nG91 X10\nG80\nM2").path(),
             (Path{"rapid 1 1 10", "rapid 1 1 2", "line 1 1 -5 F300", "rapid 1 1 10", "rapid 1 1 12", "rapid 11 1 12", "line 11 1 7 F300", "rapid 11 1 12"}));

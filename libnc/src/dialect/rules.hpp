@@ -373,6 +373,8 @@ struct CycleRules {
   bool bore_waits_for_hand = false;
   /// The bottom of a back bore lies below its end (HX 12.3.10). Otherwise the signs say the way (M700 13.1.1 (g)).
   bool back_bore_is_upwards = false;
+  /// The letter of the repeats is never one of a shift (HX 12.3.9: K is the count, I and J are the shift). Otherwise it is, in the planes that it belongs to (M700 13.1.1).
+  bool count_is_no_shift = false;
   /// The codes that stop the program act over the first hole of their block, "after positioning" (M700 13.1.1 (2)). Otherwise they act behind the block, as
   /// elsewhere (RS-274/NGC 3.8), or stand alone (DGSHAPE 2).
   bool stops_over_hole = false;

@@ -124,7 +124,7 @@ struct BlockInHand : InForce {
 /// interpret/interrupt.cpp, macro_call.cpp: what other functions need of program control.
 /// A code of the block calls a program, or names one (M96): then P, H and I J K are words of that code (M700 13.3.1, 13.3.3, 13.12).
 bool has_words_of_call(const BlockInHand& in);
-/// The word belongs to a code of the block that calls a program, names one or returns from it, and to nothing else there (M700 13.5.2: "except M, P, H and L").
+/// The word belongs to a code of the block that calls a program, names one or returns from it, and to nothing else there (M700 13.5.2: "except M, P, H and L"; HX 2.4.3: Q and R as well).
 bool is_word_of_call(const BlockInHand& in, Role word);
 bool has_modal_call(const InForce& in);   ///< something that G67 can cancel
 

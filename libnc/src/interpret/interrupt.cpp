@@ -54,7 +54,7 @@ bool is_word_of_call(const BlockInHand& in, Role word) {
   return std::any_of(in.words.auxiliary.begin(), in.words.auxiliary.end(), [&](const Auxiliary& m) {
     if (m.function == MiscFunction::interrupt_on) return is_one({Role::interrupt_program});
     if (m.function == MiscFunction::return_sub) return is_one({Role::return_sequence, Role::return_passes});
-    return calls_program(m.function) && is_one({Role::call_program, Role::call_repeats, Role::call_sequence});
+    return calls_program(m.function) && is_one({Role::call_program, Role::call_repeats, Role::call_sequence, Role::call_end_sequence});
   });
 }
 

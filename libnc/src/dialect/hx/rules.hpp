@@ -86,7 +86,8 @@ inline constexpr Rules kRules = {
               .bore_stop_dwells = false,       // 12.3.8
               .step_dwells = false,            // 12.3.4
               .bore_waits_for_hand = true,     // 12.3.11
-              .back_bore_is_upwards = true},   // 12.3.10
+              .back_bore_is_upwards = true,    // 12.3.10
+              .count_is_no_shift = true},      // 12.3.9
     .reference = {.remembered_axes_go = false,  // 6.1
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,

@@ -125,8 +125,12 @@ bool names_shift(const InForce& in, Role word) {
          (in.state.cycle.kind == CycleKind::back_bore_to_level && addresses.same(word, Role::vector_z));
 }
 
-/// The word of a shift along a basic axis is a count as well in some families: which it is, the cycle and its plane say.
-bool is_shift_word(const InForce& in, Role word) { return strokes_of(in.state.cycle.kind).shifts && names_shift(in, word); }
+/// The word of a shift along a basic axis is a count as well in some families: which it is, the cycle and its plane say, where it is not always the count.
+bool is_shift_word(const InForce& in, Role word) {
+  const AddressTable& addresses = in.dialect->addresses;
+  const bool counts = in.dialect->rules.cycle.count_is_no_shift && (addresses.same(word, Role::cycle_count) || addresses.same(word, Role::cycle_count_2));
+  return !counts && strokes_of(in.state.cycle.kind).shifts && names_shift(in, word);
+}
 
 /// The word is kept as one of a shift. In a cycle without a shift the letter of a count stays one.
 bool keeps_shift_word(const InForce& in, Role word) {
@@ -178,7 +182,7 @@ Execution take_hole_data(BlockInHand& in) {
     c.z = w.target[c.drill_axis];
     c.z_incremental = (w.target.incremental() & drill_bit) != 0;
   }
-  if (w.has(Role::cycle_level)) {
+  if (w.has(Role::cycle_level) && !is_word_of_call(in, Role::cycle_level)) {
     c.has_r = true;
     c.r = axis_value(in, c.drill_axis, w.written(Role::cycle_level), false);  // M700 2.1: a position of that axis
     c.r_incremental = is_incremental(in);
@@ -189,7 +193,7 @@ Execution take_hole_data(BlockInHand& in) {
     c.has_first = true;
     c.first = axis_value(in, c.drill_axis, w.written(Role::cycle_first_depth), false);
   }
-  if (w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step)) {
+  if (w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step) && !is_word_of_call(in, Role::cycle_depth_step)) {
     c.q = length_of(in, Role::cycle_depth_step);  // of any hole: the cycles that need a Q find it (M700 13.1.1, HX 12.1.2)
     if (is_tap(c.kind)) c.tap_q = std::fabs(c.q);  // a tap goes in cuts by a Q of its own alone
     if (q_replaces_shift(in)) std::fill_n(c.shift, 3, 0.0);
