@@ -196,6 +196,16 @@ CheckState ProgramChecks::state(const std::string& name, unsigned system) const 
   return found == reports_.end() ? CheckState::kUnchecked : found->second.state;
 }
 
+std::vector<std::string> ProgramChecks::called() const {
+  const std::string folder = folder_ + "/";
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> names;
+  for (const Head& head : head_)
+    for (const CheckReport::File& file : head.called)
+      if (file.path.starts_with(folder)) names.push_back(file.path.substr(folder.size()));
+  return names;
+}
+
 // ---- cycle start ----
 
 bool ProgramChecks::may_begin(unsigned system, unsigned file) {

@@ -92,6 +92,8 @@ class ProgramChecks final : public StartGate {
   // False when too many wait.
   bool order(const std::string& name, unsigned system, double limit_s);
   CheckState state(const std::string& name, unsigned system) const;
+  // Names of the programs that those at the heads call.
+  std::vector<std::string> called() const;
   Outcome show(const Call& call) const;
   Outcome again(const Call& call);
 

@@ -186,6 +186,7 @@ bool ProgramStore::may_change(int folder, const std::string& name, Outcome* outc
   if (!S_ISREG(info.st_mode)) *outcome = Outcome::refused(Refused::kProtected, name + " is no program");
   else if (is_protected(info)) *outcome = Outcome::refused(Refused::kProtected, name + " is protected");
   else if (use.active && contains(use.selected, name)) *outcome = Outcome::refused(Refused::kProtected, name + " is in execution: reset first");
+  else if (use.active && contains(use.called, name)) *outcome = Outcome::refused(Refused::kProtected, name + " is called by a program in execution: reset first");
   else if (use.active && static_cast<std::uint64_t>(info.st_size) > limits_.copy_bytes)
     *outcome = Outcome::refused(Refused::kProtected, name + " is so large that a program in execution reads it from its file: reset first");
   else return true;

@@ -30,6 +30,7 @@ class ProgramStore {
   // What the machine does with programs.
   struct Use {
     std::vector<std::string> selected;  // names
+    std::vector<std::string> called;    // names of what those call, as their check has found
     bool active = false;                // a program is in execution or interrupted
     bool known = true;                  // false: the control has not said what its parameters protect
     std::vector<std::string> locked;    // those of the names asked about that parameters of the control protect

@@ -269,6 +269,7 @@ ProgramStore::Use Services::use(const ProgramStore::Names& names) const {
     const FeederInfo::Selected& selected = info.system[s].selected;
     if (selected.any && !selected.mdi) use.selected.push_back(share::file_name(programs_.at(selected.file).path));
   }
+  if (checks_ != nullptr) use.called = checks_->called();
   if (names.empty()) return use;
   const auto locked = std::make_shared<ProgramStore::Names>();
   const Answer answer = runtime_.look([locked, names](nc_control* control) {

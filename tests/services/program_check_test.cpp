@@ -359,6 +359,25 @@ TEST_F(ProgramCheckServices, AStartBehindAChangeOfWhatIsCalledWaitsForItsCheck) 
   }
 }
 
+// A start that goes on behind a stop looks at no check, so what the program calls stays as it was checked until a reset.
+TEST_F(ProgramCheckServices, WhatIsCalledStaysWhileItsProgramIsInExecution) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "main.nc", "G0 X1.\nM0\nM98 P1000\nM30\n", true), "");
+  ASSERT_EQ(put(&client, "O1000.nc", "G1 X10. F600.\nM99\n", true), "");
+  ASSERT_EQ(put(&client, "other.nc", "M30\n", true), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "main.nc"}}), "");
+  ASSERT_EQ(checked(&client, "main.nc")["state"], "passed");
+  ASSERT_EQ(start(&client), "");
+  until(&client, "status", [&](const Json&) { return runtime_->snapshot().system[0].nc.state == NC_STATE_STOPPED; });
+  EXPECT_NE(put(&client, "O1000.nc", "G1 X20. F600.\nM99\n", true).find("\"protected\""), std::string::npos);
+  EXPECT_EQ(client.outcome("programs.delete", {{"name", "O1000.nc"}}), "protected");
+  EXPECT_EQ(client.outcome("programs.rename", {{"name", "O1000.nc"}, {"new_name", "x.nc"}}), "protected");
+  EXPECT_EQ(put(&client, "other.nc", "G0 X0\nM30\n", true), "");
+  ASSERT_EQ(client.outcome("reset"), "");
+  EXPECT_EQ(put(&client, "O1000.nc", "G1 X20. F600.\nM99\n", true), "");
+}
+
 // Right behind a change of its file by another program: what was found of the old text says nothing of the new one.
 TEST_F(ProgramCheckServices, ASelectionBehindAnEditIsCheckedAnew) {
   ServiceClient client(path_);
