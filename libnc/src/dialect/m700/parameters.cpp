@@ -30,6 +30,7 @@ bool none_or(double value) {
 }
 /// A number of a program, of a variable, or a kind of call.
 bool program(double value) { return whole<0, 99999999>(value); }
+bool minute_length(double value) { return value >= 0 || value == -1; }  // -1: no block is too long (13.18)
 bool below_100000(double value) { return value >= 0 && value < 100000; }
 bool below_million(double value) { return std::fabs(value) < 1000000; }
 bool unit_letter(double value) { return whole<'B', 'E'>(value); }
@@ -161,7 +162,7 @@ constexpr ParameterRow kNumbers[] = {
     {8026, 8026, 1, kAll, false,      P::spline_cancel_angle,        between<0, 180>,       "0; deg", "angle at which a spline ends", "13.18"},
     {8027, 8028, 1, kAll, false,      P::spline_tolerance,           at_least_0,            "0; mm", "tolerances of its revision", "13.18"},
     {8029, 8029, 1, kAll, false,      P::fairing_length,             between<0, 100>,       "0; mm", "fairing: lines that are shorter are left out where they protrude", "13.17"},
-    {8030, 8030, 1, kAll, false,      P::spline_minute_length,       at_least_0,            "1 mm", "length of a block that is too short to end a spline", "13.18"},
+    {8030, 8030, 1, kAll, false,      P::spline_minute_length,       minute_length,      "1 mm", "length of a block that is too short to end a spline", "13.18"},
     {8033, 8033, 1, kAll, false,      P::fairing,                    whole<0, 1>,           kOffOn, "fairing in high-speed high-accuracy control II (#8029)", "13.17"},
     {8034, 8034, 1, kAll, false,      P::acceleration_clamp,         whole<0, 1>,           kOffOn, "acceleration clamp of fine segments", "13.17"},
     {8036, 8036, 1, kAll, false,      P::corner_judgement,           whole<0, 1>,           kOffOn, "corners are judged without short lines (#8037)", "13.17"},
