@@ -115,6 +115,8 @@ TEST(Corners, EachAlarmSaysWhatToChange) {
       {"G0 X20. ,C2.", "P385 L3", "Program G01 first."},
       {"G0 X20. ,A45.", "P390 L3", "Program both ends."},
       {"G1 G60 X20. ,A45. F100", "P390 L3", "Program both ends."},
+      {"G1 X20. ,C", "P33 L3", ""},
+      {"G12 I5. D1 ,A30.", "P32 L3", ""},
       {"A10.\nX20. Y9. A10.5", "P392 L4", "Check the angles."},
       {"A10.\nG91 X20. Y9. A50.", "P393 L4", "Program G90."},
       {"A10.\nM8", "P394 L4", "must move: a line (G01) or an arc."},

@@ -70,6 +70,7 @@ constexpr Row kOfThePlane[] = {
     {"12.4.2 (4)", "... behind the start", "", "G41 D1 G1 X5. Y20. F500\nG91 G28 X0 Y0\n", "5,20 0,0"},
     {"12.4.2 (4)", "... an axis that only lifts the tool does not draw it to the contour", "", "G41 D1 G1 X0 Y0 F500\nX40. Z-5.\nG91 G28 Z0\nG90 X60.\nX80.\nG40 X90.\n", "0,5 40,5,-5 40,5 60,5 80,5 90,0"},
     {"12.4.2 (3)", "G53 of the axis across the plane lifts the tool beside the wall", "", "G41 D1 G1 X0 Y0 F500\nX40. Z-5.\nG53 Z0\nG1 Z-5.\nX80.\nG40 X90.\n", "0,5 40,5,-5 40,5 40,5,-5 80,5,-5 90,0,-5"},
+    {"12.4.2", "G39 in front of G40: its arc at an outer corner", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG39 X60.\nG40 Y-40.\n", "0,5 40,5 60,5 ~65,0 60,-40"},
     {"12.4.2 (3)", "G53 to the programmed point itself", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG53 X40. Y0\nX60.\nX80.\nG40 X90.\n", "0,5 40,5 40,0 60,5 80,5 90,0"},
     {"12.4.2 (4)", "G30", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG30 X40. Y30.\nX80. Y40.\nX0\nG40 X60. Y60.\n", "0,5 35,5 40,30 0,0 58.82,35 0,35 60,60"},
     {"12.4.2 (4)", "G29: without vector to the intermediate point, back to the compensated path (14.8 (5))", "", "G41 D1 G1 X0 Y0 F500\nX40.\nY20.\nG28 X30. Y40.\nG29 X20. Y50.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,18.82 30,40 0,0 30,40 17.929,45 0,45 60,60"},

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace nc::test {
 namespace {
@@ -53,6 +54,21 @@ TEST_F(ParametersTest, NumbersBitsAxesAndTexts) {
   EXPECT_EQ(text(50003), "");
   EXPECT_EQ(set("50003", "4503599627370496"), NC_E_ARGUMENT);
   for (const char* key : {"", "12x", "1234567", "50000/bit32", "no such name"}) EXPECT_EQ(set(key, "1"), NC_E_NOT_FOUND) << key;
+}
+
+// A clearance below 0 would send G73 and G83 into the work in rapid traverse; each has the range that its row states.
+TEST_F(ParametersTest, AValueOutsideOfTheStatedRangeIsRefused) {
+  const struct {
+    const char *key, *first_taken, *last_taken;
+    std::vector<const char*> refused;
+  } rows[] = {{"8012", "0", "2.5", {"-0.001", "-2"}},           {"8013", "0", "2.5", {"-1"}},      {"1110", "3", "97", {"2", "98", "3.5"}}, {"1181", "0", "3", {"4", "-1"}},
+              {"1303", "0", "199", {"1", "99", "200"}},         {"1304", "500", "999", {"499"}},   {"7002", "0", "3", {"4"}},               {"8030", "-1", "6", {"-0.5", "-2"}},
+              {"CONTOUR_CHECK", "0", "1", {"7", "-1", "0.5"}}, {"UNIT*10", "1", "10000", {"0"}}};
+  for (const auto& row : rows) {
+    EXPECT_EQ(set(row.key, row.first_taken), NC_OK) << row.key;
+    EXPECT_EQ(set(row.key, row.last_taken), NC_OK) << row.key;
+    for (const char* value : row.refused) EXPECT_EQ(set(row.key, value), NC_E_ARGUMENT) << row.key << " = " << value;
+  }
 }
 
 TEST_F(ParametersTest, ANumberIsOneParameterHoweverItIsWritten) {

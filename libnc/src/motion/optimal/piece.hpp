@@ -32,7 +32,7 @@ struct Limits {
 };
 
 /// What the feed of a piece goes by. `spindle` is a thread: by the turns and by nothing else, and the plan leaves a part of the limits to
-/// what keeps it with the spindle (interpolate/spindle_sync.hpp). `fixed_turns`: a tap that follows its spindle by G95, or a skip move: no override concerns it. `digit`: F1 to F5 with their handle. `signals`: a skip move whose signals
+/// what keeps it with the spindle (interpolate/spindle_sync.hpp). `fixed_turns`: a tap that follows its spindle by G95: no override concerns it. `digit`: F1 to F5 with their handle. `signals`: a skip move whose signals
 /// change its feed.
 enum class FeedBy : uint8_t { override, constant, turns, fixed_turns, spindle, digit, signals };
 
