@@ -12,6 +12,7 @@
 #include "runtime/clock.hpp"
 #include "runtime/refusal.hpp"
 #include "runtime/services/service_table.hpp"
+#include "runtime/share/request_table.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::dds {
@@ -28,6 +29,7 @@ constexpr std::chrono::milliseconds kBothReceive{20};  // far longer than one sa
 constexpr int kTaken = 16;
 constexpr std::size_t kAnswersWaiting = 256;       // when so many answers wait, or the first one for so long,
 constexpr std::int64_t kAnswersPatience = 200 * kMs;  // nobody is waited for any more
+constexpr std::int64_t kRoomPatience = 100 * kMs;    // for room among the commands, where one must not be lost
 constexpr int kNewestAnswers = 16;                   // of each client, for who does not take them as they come
 
 std::int64_t now() {
@@ -406,13 +408,21 @@ void Gateway::refuse(const share::Request& request, share::AckReason reason, con
   answer(refusal);
 }
 
+// A command for which the ring has no room is refused. What stops the machine waits for room behind a flood of others, which the control empties within some
+// milliseconds; so does the news that a client has gone, which nobody would repeat.
 void Gateway::put(const share::Request& request) {
-  if (!segment_.get()->commands.push(request)) {
-    if (request.kind < static_cast<std::uint32_t>(share::RequestKind::kClientGone))
-      refuse(request, share::AckReason::kOverflow, "too many commands at once");
-    return;
+  const bool waits = share::request_row(request).stops() || share::is_from_gateway(request);
+  const std::int64_t give_up = now() + kRoomPatience;
+  share::Segment& control = *segment_.get();
+  while (!control.commands.push(request)) {
+    share::wake(&control.wake_intake);
+    if (!waits || now() > give_up) {
+      if (!share::is_from_gateway(request)) refuse(request, share::AckReason::kOverflow, "too many commands at once");
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
-  share::wake(&segment_.get()->wake_intake);
+  share::wake(&control.wake_intake);
 }
 
 void Gateway::client_gone(const share::Text<32>& name, std::uint64_t writer) {

@@ -263,7 +263,7 @@ def renewal(plant, viewer, boss, gateway):
     def meanwhile():
         nonlocal at
         jogs.append(boss.send("nc_ServiceOperate", "jog", axis="X", velocity=2.0))
-        if len(jogs) % 10 == 0 and at < len(text) and boss.replies(boss.asked - 3):
+        if len(jogs) % 10 == 0 and at < len(text) and all(boss.replies(n) for n in range(first, boss.asked - 2)):  # at most four are open
             piece = text[at : at + 1500]
             boss.send("nc_ServiceSetUp", "programs.data", upload=upload, begin=at, data=base64.b64encode(piece).decode("ascii"))
             at += len(piece)

@@ -273,10 +273,10 @@ def states(told):
 
 def monitor(plant):
     def run(*options):
-        return subprocess.run([program("ncmon"), "--domain", plant.domain, "--once", "--wait", "20" if options else "4", *options], capture_output=True, text=True)
+        return subprocess.run([program("ncmon"), "--domain", plant.domain, "--once", "--wait", "90" if options else "4", *options], capture_output=True, text=True)
 
     shown = run("--security", plant.identity("viewer"))
-    check(shown.returncode == 0 and "part system 1" in shown.stdout, "ncmon with an identity shows the control")
+    check(shown.returncode == 0 and "part system 1" in shown.stdout, f"ncmon with an identity shows the control {shown.returncode} {shown.stderr.strip()[:300]}")
     check(run().returncode == 2, "without one it hears nobody")
     for options, text in ((("--security", plant.folder), "identity-ca.pem: No such file"), (("--security", plant.identity("expired")), "has expired at"),
                           (("--network", "lo"), "--network needs --security")):
