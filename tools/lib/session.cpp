@@ -9,13 +9,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <system_error>
 #include <utility>
 
-#include "runtime/programs/large_pages.hpp"
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/json_check.hpp"
 
@@ -88,10 +86,6 @@ Session::Session() {
 }
 Session::~Session() = default;
 
-void Session::Release::operator()(void* memory) const {
-  std::free(memory);
-}
-
 bool Session::configure(const SessionOptions& options, std::string* error, std::unique_ptr<rt::Config> machine) {
   const auto dialect = dialect_from_name(options.dialect);
   if (!dialect) {
@@ -127,11 +121,8 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     return false;
   }
   const size_t size = nc_memory_required(&config_);
-  const size_t pages = (size + rt::kLargePage - 1) / rt::kLargePage * rt::kLargePage;
-  memory_.reset(std::aligned_alloc(rt::kLargePage, pages));
-  if (memory_) rt::ask_for_large_pages(memory_.get(), pages);  // nearly all of it is written when the control is created
   nc_status status = NC_E_MEMORY;
-  if (memory_) control_ = nc_create(&config_, memory_.get(), size, &status);
+  if (void* memory = memory_.allocate(size); memory != nullptr) control_ = nc_create(&config_, memory, size, &status);
   if (!control_) {
     *error = std::string("the control cannot be created: ") + nc_status_text(status);
     return false;

@@ -9,6 +9,7 @@
 
 #include "nc/nc.h"
 #include "runtime/config.hpp"
+#include "tools/lib/control_memory.hpp"
 #include "tools/lib/dialect_names.hpp"
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/program_files.hpp"
@@ -65,9 +66,6 @@ class Session {
   std::string file_name(const nc_source& source) const;
 
  private:
-  struct Release {
-    void operator()(void* memory) const;
-  };
   bool add_main(const SessionOptions& options, std::string* error);
   bool declare_tape(const SessionOptions& options, std::string* error);
   bool add_standard_input(bool tape, std::string* error);
@@ -78,7 +76,7 @@ class Session {
   Setup setup_;
   nc_config config_;
   nc_dialect dialect_{};
-  std::unique_ptr<void, Release> memory_;
+  ControlMemory memory_;
   std::unique_ptr<ProgramFiles> files_;
   nc_control* control_ = nullptr;
   rt::ProgramText::Options text_;
