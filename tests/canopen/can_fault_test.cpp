@@ -3,6 +3,8 @@
 // but nothing moves before the operator starts it.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "can_rig.hpp"
 
 namespace {
@@ -274,6 +276,46 @@ TEST(CanFault, AScanThatIsLateByManyCyclesSendsNoAxisBack) {
       }
       EXPECT_GE(least, -0.002);
       EXPECT_LE(most, per_cycle * 1.2);
+      EXPECT_EQ(rig.alarms(), "");
+    }
+  }
+}
+
+// The speed of a move that ends falls from SYNC to SYNC, so an axis that went on as before would pass the end, and a control that ended just then would leave it there.
+TEST(CanFault, AScanThatIsLateWhileAnAxisBrakesSendsItNotBeyondItsEnd) {
+  constexpr double kEnd = 5.0, kFine = 0.1 / nc::test::kIncrementsPerMm;  // mm: one increment of the encoder here
+  const std::string toml = std::regex_replace(std::regex_replace(can_toml(), std::regex("encoder = 10000\n"), "encoder = 100000\n"), std::regex("max_jerk = 50000.0"), "max_jerk = 1000000.0");
+  const auto mm = [](CanRig* rig) { return rig->plant_mm(0) / 10; };
+  for (const double way : {1.0, -1.0}) {
+    const std::string block = "G90 G01 X" + std::to_string(way * kEnd) + " F6000";
+    unsigned cycles = 0;  // of the whole move
+    for (int late = -1; late < 30; ++late) {
+      SCOPED_TRACE(block + ", " + std::to_string(late) + " cycles before its end");
+      CanRig rig(toml);
+      rig.bring_up();
+      ASSERT_EQ(rig.mdi(block), Answer::kDone);
+      if (late < 0) {
+        for (; way * mm(&rig) < kEnd - kFine / 2 && cycles < 3000; ++cycles) rig.step();
+        continue;
+      }
+      rig.step(cycles - static_cast<unsigned>(late));
+      double at = way * mm(&rig), least = 0, most = at;
+      const auto look = [&] {
+        least = std::min(least, way * mm(&rig) - at);
+        at = way * mm(&rig);
+        most = std::max(most, at);
+      };
+      for (int i = 0; i < 4; ++i) {
+        rig.bus_step();  // without a scan
+        look();
+      }
+      for (int i = 0; i < 100; ++i) {
+        rig.step();
+        look();
+      }
+      EXPECT_LE(most, kEnd + 1.5 * kFine);  // set-points are whole increments
+      EXPECT_GE(least, -1.5 * kFine);
+      EXPECT_NEAR(at, kEnd, kFine);
       EXPECT_EQ(rig.alarms(), "");
     }
   }
