@@ -450,6 +450,17 @@ TEST(ContourCheck, BesideAChangeOfSideAreTwoBlocks) {
   EXPECT_EQ(alarm_of_program(behind("X10. Y-30."), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // across the path of the tool
 }
 
+// The tool crosses the contour at a change of side, and cuts the two blocks from the joint on, without a gap. The path of a block that is too short for that begins far from the joint and leads
+// into the block in front of the change beside it: that is P153 in this block, and not only in the one behind it, which goes through that wall.
+TEST(ContourCheck, BesideAChangeOfSideTheCrossingIsNoWall) {
+  Bench bench;
+  bench.tool(1, 4.314).param("CONTOUR_CHECK", "1");
+  const Outcome run = bench.run(
+      "G17 G90 G0 X-12.127908 Y-25.863789\nG1 G42 D1 X-14.253219 Y-20.941063 F1000\nX20.984399 Y-5.727766\nG41 X20.667273 Y-5.224335\nX-24.452857 Y8.940979\nX-14.904643 Y-19.032575\nX-14.253219 Y-20.941063\nG40 X-5.923201 Y-25.430481\nM30\n");
+  EXPECT_EQ(run.alarm, "P153");
+  EXPECT_EQ(run.alarm_line, 4u);
+}
+
 // The joint at the end of a short block behind the change leads back beside the next block, and there comes too near to the block in front of the change.
 TEST(ContourCheck, TheJointBehindAShortBlockAtAChangeOfSide) {
   const auto star = [](const char* tip) {
@@ -531,6 +542,18 @@ TEST(ContourCheck, WholeTurnsOfAHelixOnTheWayIn) {
   EXPECT_EQ(alarm_of_program(hole("G3 Y36. J6.\nG3 Y24. J-6.\n", plate), 5, check), "P153");
   EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6.\n", plate), 5, check), "P153");  // on one level it is a contour of its own
   EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z0\n", "G1 Y60.\nX40.\nY30.\nX5.\nY20.\nX-12.\nY30.\nX0\n"), 5, check), "P153");  // through the way in's own walls no less
+}
+
+// An arc of a micrometre comes back to where it began, as far as that is told, but goes round nothing: it closes no contour, however far from its start it lies. The walls between the helix
+// and it were no walls any more, and the tool went through the first of them with its last block (oracle, seed 100544619).
+TEST(ContourCheck, ABlockOfAMicrometreIsNoRing) {
+  const auto around = [](const char* middle, const char* code) {
+    return std::string("G90 G17 G0 X80.232151 Y11.654258 Z0\nG1 G41 D1 X84.528132 Y9.815034 F1000\nG2 X84.528132 Y9.815034 I-8.501375 J3.639666 Z-1.25\nG2 X76.536 Y4.221 I-8.501375 J3.639666 Z-2.5\nG1 X0 Y0\nX0.5505 Y-9.985\nX1.101 Y-19.97\n") +
+           middle + "X33.566 Y-18.179 I16.231945 J0.895998\nG1 " + code + "\nG3 X77.637 Y-15.749 I22.036 J1.215\nG1 X76.536 Y4.221\nG40 X69.790603 Y8.099702 Z0\nM30\n";
+  };
+  const char* const tiny = "G3 X1.101055 Y-19.970998 I16.232 J0.895\n";
+  EXPECT_EQ(alarm_of_program(around(tiny, "G42"), -3.725, {{"CONTOUR_CHECK", "1"}}), "P153");
+  EXPECT_EQ(alarm_of_program(around("G3 ", "G42"), -3.725, {{"CONTOUR_CHECK", "1"}}), "P153");
 }
 
 // A second round is a part of the contour, not a way out: its wall holds for the way out behind it, which is an arc larger than the hole.

@@ -617,6 +617,13 @@ class Contour:
         """Half a micrometre does not scale: twice as long it may be a block, which has a side, or a corner with the new amount, of its own."""
         return self.changes_at() is not None and min(self.programmed[k].length() for k in self.changes_at()) < NO_DIRECTION
 
+    def becomes_a_block(self):
+        """Does a line without a direction, or what several of them in a row lead away, come to be a block when it is twice as long? Its corners then take the place of the one that it is a part of."""
+        away = [0.0]
+        for element in self.programmed * 2:
+            away.append(away[-1] + element.length() if element.length() < NO_DIRECTION else 0.0)
+        return any(NO_DIRECTION / 2 <= way + 1e-6 and way > 0 for way in away)
+
     def changes_from_a_point(self):
         """The amount changes along an arc that has the radius of the tool: its path leads away from its centre. To the last digit it begins there, without a direction, and is
         a line, or it begins beside it, and is a spiral."""

@@ -232,6 +232,7 @@ def judge_change(contour, moves):
     others = [each for each in paths if not before <= each[0] <= behind]
     rest = [e.points() for i, e in enumerate(elements) if not a <= i <= b and e.length() > TOLERANCE]  # of a shorter one the ends are those of its neighbours
     bad = (others and judge_gouge(others, contour.wall(), r)) or (beside and rest and judge_gouge(beside, MultiLineString(rest), r, ends=False))
+    bad = bad or judge_beyond_change((elements[a], elements[b]), [[path for block, path in paths if block == line] for line in (before, behind)], r)
     if bad:
         return bad
     off = 0
@@ -243,6 +244,24 @@ def judge_change(contour, moves):
         return f"off the offset curve by {off:.6f} mm at the change of side"
     return (judge_uncut(contour, together([each for each in paths if each[0] <= before]), r, contour.inside, elements[:a], 0)
             or judge_uncut(contour, together([each for each in paths if each[0] >= behind]), r, not contour.inside, elements[b + 1:], -1))
+
+
+def judge_beyond_change(elements, paths, r):
+    """The path of each of the two blocks beside a change of side and the other block. The tool crosses the contour there: it cuts the block from the joint on, as far as that is without a gap, and what comes
+    back to the joint."""
+    for element, others, last in ((elements[0], paths[1], True), (elements[1], paths[0], False)):
+        if not others or element.length() < NO_DIRECTION:
+            continue
+        path, crossing, joint = MultiLineString(others), True, element.end if last else element.start
+        count = min(4000, max(50, math.ceil(element.length() / (r / 50))))
+        for i in range(count + 1):
+            point = element.at(1 - i / count if last else i / count)[0]
+            away = path.distance(Point(point))
+            if crossing and away > r + TOLERANCE:
+                crossing = False
+            elif not crossing and away < r - 2 * TOLERANCE and math.dist(point, joint) > 2 * r:
+                return f"gouge of {r - away:.4f} mm beyond the change of side"
+    return None
 
 
 def with_lengthened_start(moves, block, element, r):
@@ -450,7 +469,7 @@ def main():
         for contour, result, other in zip(tried, results, run_all(programs)):
             if way == "back" and not contour.reversible():
                 continue  # their words stand at other blocks then, and along its sides the tool comes from the other end
-            if way == "scale" and (contour.changes_in_a_tiny_line() or contour.changes_from_a_point() or contour.touches_by_a_digit()):
+            if way == "scale" and (contour.changes_in_a_tiny_line() or contour.becomes_a_block() or contour.changes_from_a_point() or contour.touches_by_a_digit()):
                 continue  # twice as long it may be a block, which has a side of its own; twice as far apart paths do not touch, and twice as far from a centre one begins beside it
             bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way, as_large_as_the_tool(contour))
             if bad:

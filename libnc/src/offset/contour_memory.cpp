@@ -95,10 +95,11 @@ ContourMemory::Swept ContourMemory::go_on(const Section& section) {
   return before;
 }
 
-/// Has it gone round something since, from where it is back again? A spike, out and back on one line, is wider than the last digits by nothing, and what is as small as a burr to the tool is no part.
-bool ContourMemory::goes_round(const Swept& since) const {
-  const double least = kLeastPart * std::abs(state_.offset);
-  return std::abs(state_.swept.area - since.area) > std::max(kCloses_mm * (state_.swept.way - since.way), least * least);
+/// Has it gone round something since, from this place, to which it is back again? A spike, out and back on one line, is wider than the last digits by nothing, and what is as small as a burr to the tool is no part.
+/// The ring is closed by the line back to its place: without that the ray has swept what lies between the gap and the start of the contour, however far away, and a block of a micrometre would be a ring by itself.
+bool ContourMemory::goes_round(const Swept& since, Vec2 place) const {
+  const double least = kLeastPart * std::abs(state_.offset), area = state_.swept.area - since.area + 0.5 * cross(state_.at, place);
+  return std::abs(area) > std::max(kCloses_mm * (state_.swept.way - since.way), least * least);
 }
 
 /// The joint at the end of a block: where the contour is, and whether it has closed.
@@ -110,7 +111,7 @@ void ContourMemory::follow(const Section& section, uint64_t number, Vec2 start, 
   for (unsigned i = 0; i < state_.joints; ++i) {
     const double from_joint = norm(state_.at - state_.joint[i]);
     if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);
-    if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm || !goes_round(state_.at_joint[i])) continue;
+    if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm || !goes_round(state_.at_joint[i], state_.joint[i])) continue;
     if (first) {  // the way in ends where the contour first closes
       state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
       for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
@@ -187,7 +188,7 @@ bool ContourMemory::comes_back(uint64_t number, uint64_t from, uint64_t* ring) c
   return walls_.any(from, end.grown(kCloses_mm), [&](uint64_t first, const Wall& wall) {
     const Piece& piece = wall.piece;
     *ring = first;
-    return wall.offset != 0 && norm(piece.from - last.to) <= kCloses_mm && goes_round(wall.swept) && (norm(piece.to - piece.from) > kAway_mm || (piece.round && piece.radius > kAway_mm));
+    return wall.offset != 0 && norm(piece.from - last.to) <= kCloses_mm && goes_round(wall.swept, piece.from);
   });
 }
 
@@ -294,6 +295,22 @@ bool ContourMemory::across_contour(const Path& path, uint64_t number) { return n
 /// What is inserted at a corner leads round it: it cuts neither of the two blocks there, be they a part of the contour or of a way in or out.
 bool ContourMemory::at_its_own_corner(const Path& path, uint64_t number) { return path.of_joint && (number == path.number || number == path.number + 1); }
 
+/// The path of one of the two blocks beside a change of side, and the other block. On its way to the other side the tool has to cross the contour (M700 12.4.2): it cuts the block from the joint on up to where the
+/// path is the radius away from it. What it cuts beyond a gap is a wall as others are, and so is all of the block for what of the path lies beyond one.
+bool ContourMemory::enters_beyond_change(const Path& path, uint64_t number, const Wall& wall, double margin) {
+  const bool behind = number > path.number;  // the wall; the joint is where it begins and the path ends
+  const Amount of_path{std::abs(path.before), std::abs(path.offset)}, of_wall{std::abs(wall.before), std::abs(wall.offset)};
+  const double clear = std::max({of_path.start, of_path.end, of_wall.start, of_wall.end}) + margin;
+  const auto rest_of = [](Amount amount, bool from_start, double part) {
+    const double at = (from_start ? part : 1 - part) * (amount.end - amount.start) + amount.start;
+    return from_start ? Amount{at, amount.end} : Amount{amount.start, at};
+  };
+  const double cut = stretch_beside(wall.piece, behind, path.piece, clear);
+  if (cut < 1 && comes_nearer(path.piece, of_path, without_stretch(wall.piece, behind, cut), rest_of(of_wall, behind, cut), margin)) return true;
+  const double crosses = stretch_beside(path.piece, !behind, wall.piece, clear);
+  return crosses < 1 && comes_nearer(without_stretch(path.piece, !behind, crosses), rest_of(of_path, !behind, crosses), wall.piece, of_wall, margin);
+}
+
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0 || wall.across) return false;
   // The cutter cuts all that is above its tip, so what has been cut above a path is a wall for it; a block above it that comes later is a way across the part. A wall
@@ -307,9 +324,10 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it. The tangent of
   // an arc, by which a corner is lengthened, comes near to the other end of that arc where it turns by more than half a circle.
   if (between == 0 && !path.bends && !path.crosses_own && !(path.prolongs && wall.piece.round)) return false;
-  if (between == 1 && (path.offset * wall.offset < 0 || across_contour(path, number))) return false;
+  if (between == 1 && across_contour(path, number)) return false;
   OpenEnds open;
   double margin = kEnters_mm + path.slop + wall.slop;
+  if (between == 1 && path.offset * wall.offset < 0) return !path.of_joint && enters_beyond_change(path, number, wall, margin);  // what lengthens a block goes on with its crossing
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
     open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
     open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;

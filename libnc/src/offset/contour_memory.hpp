@@ -13,7 +13,7 @@
 //
 // What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given or erased), blocks below it (along the axis across the plane; of a way down along
 // the contour all are on one level), and beside a change of
-// side, or where the tool stands on the contour without a vector, the block before and the block behind, each with the path of the other.
+// side the stretches of the block before and the block behind that the path of the other cuts from there on; where the tool stands on the contour without a vector, all of these two.
 //
 // How near a path may come. By the smaller one of the two amounts where they differ, and in a block with another amount, in which it changes evenly (M700 12.4.6), by what it is there:
 // at a joint that of the block in front holds for both.
@@ -159,7 +159,7 @@ class ContourMemory {
   void add_joints(uint64_t place, Vec2 start, const Swept& before);
   bool goes_to_another_depth(const Section& section);
   bool comes_back(uint64_t number, uint64_t from, uint64_t* ring) const;
-  bool goes_round(const Swept& since) const;
+  bool goes_round(const Swept& since, Vec2 place) const;
   bool turns_out(uint64_t ring, uint64_t number) const;
   bool goes_along(uint64_t number) const;
   void note_closed(uint64_t number);
@@ -171,6 +171,7 @@ class ContourMemory {
   bool is_way_in(uint64_t number) const;
   static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
+  static bool enters_beyond_change(const Path& path, uint64_t number, const Wall& wall, double margin);
   double amount_before(const Section& section) const;
   static bool at_its_own_corner(const Path& path, uint64_t number);
   bool blame(uint64_t number, const Path& path);

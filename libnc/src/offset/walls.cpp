@@ -150,6 +150,17 @@ bool cuts_end(const WayPast& way, const Piece& wall, Vec2 end) {
 /// How far its points may lie beside the arc of its mean radius.
 double slack(const Piece& piece) { return piece.round ? 0.5 * std::abs(piece.radius - piece.radius_end) : 0; }
 
+/// The point of a piece so far along it, 0 its start and 1 its end.
+Vec2 point_at(const Piece& piece, double part) {
+  if (part <= 0 || part >= 1) return part <= 0 ? piece.from : piece.to;
+  if (!piece.round) return piece.from + part * (piece.to - piece.from);
+  const double c = std::cos(part * piece.sweep), s = std::sin(part * piece.sweep), radius = piece.radius + part * (piece.radius_end - piece.radius);
+  const Vec2 out = unit(piece.from - piece.center);
+  return piece.center + radius * Vec2{c * out.h - s * out.v, s * out.h + c * out.v};
+}
+
+double length_of(const Piece& piece) { return piece.round ? mean_radius(piece) * std::abs(piece.sweep) : norm(piece.to - piece.from); }
+
 }  // namespace
 
 Piece wall_of(const Section& section, Vec2 start) {
@@ -280,6 +291,34 @@ bool comes_nearer(const Piece& path, Amount of_path, const Piece& wall, Amount o
   halve(wall, half);
   return comes_nearer(path, of_path, half[0], {of_wall.start, middle}, margin, {open.from, false}) ||
          comes_nearer(path, of_path, half[1], {middle, of_wall.end}, margin, {false, open.to});
+}
+
+// From a point as near as d the next one that can be clear is clear - d ahead. Steps no shorter than a fraction of what has been gone end the search; a gap shorter than that is none.
+double stretch_beside(const Piece& piece, bool from_start, const Piece& other, double clear) {
+  constexpr double kStep = 1.0 / 32;
+  const double length = length_of(piece);
+  for (double gone = 0; gone < length;) {
+    const double part = gone / length;
+    Piece place;
+    place.from = place.to = point_at(piece, from_start ? part : 1 - part);
+    const double away = distance(place, other);
+    if (away > clear) return part;
+    gone += std::max({clear - away, kStep * clear, kStep * gone});
+  }
+  return 1;
+}
+
+Piece without_stretch(const Piece& piece, bool from_start, double part) {
+  Piece rest = piece;
+  if (from_start) {
+    rest.from = point_at(piece, part);
+    rest.radius = piece.radius + part * (piece.radius_end - piece.radius);
+  } else {
+    rest.to = point_at(piece, 1 - part);
+    rest.radius_end = piece.radius_end - part * (piece.radius_end - piece.radius);
+  }
+  rest.sweep = (1 - part) * piece.sweep;
+  return rest;
 }
 
 bool on_one_level(const Section& a, const Section& b) {

@@ -80,6 +80,11 @@ bool on_one_level(const Section& a, const Section& b);
 /// Does the contour, from the start of section `first` on, come back to one of its joints before section `last` ends?
 bool closes(const Chain& chain, unsigned first, unsigned last);
 
+/// Which part of a piece, from its start on (or from its end back), comes no farther away from the other than `clear` without a gap? 0: none of it, 1: all.
+double stretch_beside(const Piece& piece, bool from_start, const Piece& other, double clear);
+/// What is left of a piece behind this part of it, or in front of it.
+Piece without_stretch(const Piece& piece, bool from_start, double part);
+
 /// By how much a path may come nearer than the radius: rounding, and the micrometre that a vector may be off where an arc ends beside its circle.
 inline constexpr double kEnters_mm = 1e-3 + kOneLength_mm;
 /// The same of words in inch, the last of whose four digits is 2.54 um.
