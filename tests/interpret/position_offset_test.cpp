@@ -109,6 +109,20 @@ TEST(PositionOffset, TheSentenceNamesARadiusThatIsNotLargerThanTheAmount) {
   }
 }
 
+// Behind an offset way the tool stands beside the programmed start. Absolute words lead to the programmed end, which the longer way passes: no arc from there is one, in increments it is.
+TEST(PositionOffset, TheSentenceOfAnAbsoluteArcSaysThatItGoesInIncrements) {
+  Bench bench;
+  bench.tool(1, 2);
+  for (const char* block : {"G45 G3 X0 Y10. I-10.", "G45 G3 X0 Y10. R10.", "G45 G3 X0 I-10."}) {
+    const Outcome run = bench.at(12, 0, 0).run("G90 F100 D1\n" + std::string(block) + "\nM30");
+    EXPECT_EQ(run.alarm, "P142") << block;
+    EXPECT_EQ(run.alarm_detail.rfind("G90: where the start of the arc is offset, program it in G91", 0), 0u) << run.alarm_detail;
+    EXPECT_LT(run.alarm_detail.size(), 128u);
+  }
+  EXPECT_EQ(bench.at(12, 0, 0).run("G91 G45 G3 X-10. Y10. I-10. F100 D1\nM30").alarm, "");
+  EXPECT_EQ(bench.at(12, 0, 0).run("G90 F100 D1\nG91 G45 G3 X-10. Y11. I-10.\nM30").alarm_detail.find("G91"), std::string::npos);
+}
+
 TEST(PositionOffset, OtherArcsAreRefused) {  // appendix 1, P142
   Bench bench;
   bench.tool(1, 2);

@@ -391,6 +391,8 @@ constexpr Sentence kSentences[] = {
      "Rotation cannot be used while a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z})."},
     {C::offset_in_figure, "{word} cannot be used while coordinates are rotated ({rotation_on}) or a program is called with rotation ({call_sub} {vector_x} {vector_y} {vector_z}).",
      "A position offset cannot be used while coordinates or a program are rotated."},
+    {C::offset_arc, "{word}: where the start of the arc is offset, program it in {incremental}; 1/4, 1/2 or 3/4 of a circle from axis to axis.",
+     "A position offset takes 1/4, 1/2 or 3/4 of a circle from axis to axis.", nullptr, of<Function::absolute>},
     {C::offset_arc, "{word}: the radius of the arc has to be larger than the amount by which the position offset makes it smaller.",
      "A position offset takes 1/4, 1/2 or 3/4 of a circle from axis to axis.",
      "{word} takes 1/4, 1/2 or 3/4 of a circle from axis to axis: {offset_longer} and {offset_shorter} the quarters, the other two the half."},

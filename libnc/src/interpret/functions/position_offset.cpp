@@ -56,6 +56,11 @@ Execution radius_vanishes(BlockInHand& in, const ArcWords& words, const PlaneAxe
   return in.raise(Condition::offset_arc, radius, in.words.get(radius));
 }
 
+/// No part of a circle that an offset arc may be. An absolute word leads from a start that is offset to the programmed end, and the longer way past the one on the circle: who has programmed it so has to be told of G91.
+Execution no_part_of_circle(BlockInHand& in, const FunctionRow& row, bool absolute) {
+  return absolute ? in.raise_function(Condition::offset_arc, Function::absolute) : in.raise_code(Condition::offset_arc, row);
+}
+
 /// Makes the arc that the programmed one becomes. It has the same centre where the arc begins beside its programmed start by the same amount.
 Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   const FunctionRow& row = *in.words.one_shot;
@@ -69,6 +74,8 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   const double by = amount / std::fabs(scale_of(in, h));
   const auto vanishes = [by](double word) { return word != 0 && std::fabs(word) + by <= 0; };
   if (vanishes(words.radius) || vanishes(words.center[0]) || vanishes(words.center[1])) return radius_vanishes(in, words, plane);
+  const auto by_place = [&in](unsigned axis) { return in.words.target.commands(axis) && !in.words.target.counts_on(axis); };
+  const bool absolute = by_place(h) || by_place(v);
   lengthen_ways(in, amount, true);
   if (words.has_radius) words.radius = longer(words.radius, by);
   for (double& center : words.center)
@@ -83,7 +90,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   };
   const long quarters = std::lround(std::fabs(circle.sweep) / (kPi / 2));
   const bool fits = is_twice(row.function) ? quarters == 2 : quarters == 1 || quarters == 3;
-  if (bad != Condition::none || straight || !on_axis(start) || !on_axis(end) || !fits) return in.raise_code(Condition::offset_arc, row);
+  if (bad != Condition::none || straight || !on_axis(start) || !on_axis(end) || !fits) return no_part_of_circle(in, row, absolute);
   return move_arc_by(in, plane, target_of_words(in), in.words.target.axes(), words, ccw);
 }
 
