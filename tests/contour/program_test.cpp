@@ -220,6 +220,17 @@ TEST(BlocksThatMeet, TheFirstOnesCodesWaitForTheSecond) {  // as with a stroke l
   EXPECT_EQ(run.end_work.v[0], 5);
 }
 
+// An arc without an end is a whole circle (6.4) where the block behind is no second one of a pair. Where it is one, and the two do not meet, nothing of the first is cut.
+TEST(BlocksThatMeet, ACircleInFrontOfAPairThatDoesNotFitIsNotCut) {
+  for (const char* second : {"G3 X60. Y5. I3. J0", "G3 X60. Y5. R3.", "G2 X60. Y5. I3. J0", "G1 X60. Y50. A0"}) {
+    const Outcome run = m700(std::string("G1 X10. F100\nM3 G2 I10. J0\n") + second + "\nM30");
+    EXPECT_EQ(run.alarm, "P397") << second;
+    EXPECT_EQ(run.alarm_line, 3u) << second;
+    EXPECT_EQ(ends_of(run), (Path{"line 10 0 0"})) << second;
+    EXPECT_EQ(run.aux(), "") << second;
+  }
+}
+
 TEST(BlocksThatMeet, AResetForgetsThePendingBlock) {
   Bench bench;
   bench.start("G1 A45. F100\nX60. Y0 A135.\nM30");
