@@ -30,6 +30,23 @@ TEST(Hx, ValuesOfFormulasAreRoundedToTheLeastUnit) {  // 14.2.4, the printed num
   EXPECT_EQ(hx("G00 X0.12345\nM30").path(), (Path{"rapid 0.12345 0 0"}));     // as written it stays
 }
 
+TEST(Hx, RoundAloneInAnAddressRoundsToTheLeastUnit) {  // 14.2.4: X[ROUND[#1]], "X 0.001", beside X-[ROUND[#1]+ROUND[#2]], which is X3.
+  const auto end = [](const char* words) {
+    const Outcome run = hx("#1=1.4567\n#2=2.3456\nG01 F100. " + std::string(words) + "\nM30");
+    EXPECT_EQ(run.alarm, "") << words;
+    return run.path();
+  };
+  for (const char* words : {"X[ROUND[#1]]", "XROUND[#1]", "X[[ROUND[#1]]]", "X[RND[#1]]"}) EXPECT_EQ(end(words), (Path{"line 1.457 0 0 F100"})) << words;
+  for (const char* words : {"X-[ROUND[#1]]", "X-ROUND[#1]"}) EXPECT_EQ(end(words), (Path{"line -1.457 0 0 F100"})) << words;
+  EXPECT_EQ(end("X[ROUND[ROUND[#1]]]"), (Path{"line 1 0 0 F100"}));
+  EXPECT_EQ(end("X-[ROUND[#1]+ROUND[#2]]"), (Path{"line -3 0 0 F100"}));
+  EXPECT_EQ(end("X[0+ROUND[#1]]"), (Path{"line 1 0 0 F100"}));
+  EXPECT_EQ(end("X[FIX[#1]] Y[FUP[#1]]"), (Path{"line 1 2 0 F100"}));
+  EXPECT_EQ(end("X1. Y[ROUND[#9]]"), (Path{"line 1 0 0 F100"}));  // of a vacant variable it is 0
+  EXPECT_EQ(hx("#1=1.5\n#3=ROUND[#1]\n#4=0\nIF[2 EQ ROUND[#1]]GOTO10\n#4=1\nN10 G01 F[ROUND[#1]] X1.\nM30").path(), (Path{"line 1 0 0 F2"}));
+  EXPECT_EQ(hx("G20\n#1=1.45678\nG00 X[ROUND[#1]]\nM30").path(), (Path{"rapid 37.00272 0 0"}));  // 1.4568 inch
+}
+
 TEST(Hx, BracketsStandTenDeep) {  // 14.2.4, 14.4
   const auto sum = [](size_t levels) { return "#100=" + std::string(levels, '[') + "1" + std::string(levels, ']') + "\nM30"; };
   EXPECT_EQ(hx(sum(10)).var(100), 1);

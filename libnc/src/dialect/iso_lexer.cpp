@@ -391,6 +391,7 @@ class Lexer {
     word->flags = static_cast<uint8_t>((word->flags & ~(kWordNegative | kWordPlus)) | kWordExpression);
     ExpressionCompiler compiler(block_, &at_, rules_);
     if (!compiler.word_value(&word->code, rules_.bare_sums)) return fault(compiler.fault(), letter_of(word->slot));
+    if (rules_.word[index_of(word->slot)].round_keeps_unit) compiler.leave_lone_round_out();
     if (!rules_.bare_sums && goes_on(at_.peek())) return fault(Condition::format_error, letter_of(word->slot));
     if (at_.peek() == '=') return fault(Condition::macro_and_words, letter_of(word->slot));  // X#1=#3+100
     return true;

@@ -12,6 +12,7 @@ struct WordFormat {
   bool known = false;           ///< the address exists (else Condition::illegal_address)
   Condition refusal{};          ///< alarm for a word of an unknown address; none = Condition::illegal_address
   bool integer = false;         ///< decimals are cut off (M700 5.3: D H L M N O S T)
+  bool round_keeps_unit = false;  ///< ROUND alone behind it rounds to the least unit of the word, and not to a whole number (HX 14.2.4)
   uint8_t integer_digits = 8;   ///< most digits before the point, up to 19; a word with more is Condition::value_range
   uint8_t fraction_digits = 8;  ///< most digits behind the point; where it is 8, more are accepted, too
 };

@@ -37,6 +37,14 @@ bool ExpressionCompiler::word_value(uint16_t* code, bool sums) {
   return (ngc_ ? ngc_value(0) : sums ? sum(0, false) : signed_operand(0, false)) && emit(Op::end);
 }
 
+void ExpressionCompiler::leave_lone_round_out() {
+  if (behind_round_ == 0) return;
+  const unsigned size = block_.code.size();  // the last instruction is Op::end
+  const auto at = [this](unsigned place) { return static_cast<Op>(block_.code[place]); };
+  const bool with_sign = behind_round_ + 2 == size && (at(behind_round_) == Op::negate || at(behind_round_) == Op::negate_word);
+  if (behind_round_ + 1 == size || with_sign) block_.code[behind_round_ - 1] = static_cast<uint8_t>(Op::zero_for_vacant);
+}
+
 bool ExpressionCompiler::condition(uint16_t* code) {
   start(code);
   if (at_.peek() != '[') return fail(Condition::calculation);
@@ -111,7 +119,9 @@ bool ExpressionCompiler::operand(unsigned depth, bool comparison_allowed, bool n
   Op op{};
   if (is_letter(c) && accept_keyword(at_, kFunctions, &op)) {
     if (at_.peek() != '[') return fail(Condition::calculation);  // M700 13.5.6 (Note 3)
-    return bracket(depth, false) && emit(op);
+    if (!bracket(depth, false) || !emit(op)) return false;
+    if (op == Op::round) behind_round_ = block_.code.size();
+    return true;
   }
   // There is a ']' too many, or the block ends before a '[' is closed.
   const bool unpaired = depth == 0 ? c == ']' : at_.at_end();

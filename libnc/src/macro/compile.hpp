@@ -105,6 +105,9 @@ class ExpressionCompiler {
   bool expression(uint16_t* code) { return start(code) && (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end); }
   /// The value of a word without brackets around it: only + - * / may stand in it, and those only with `sums`; a sign at its head belongs to the word.
   bool word_value(uint16_t* code, bool sums);
+  /// Where the value that word_value() has compiled is ROUND of something, with or without a sign, it becomes that something, vacant still as 0: the word
+  /// is then rounded as every word is.
+  void leave_lone_round_out();
   /// '[' formula comparison formula ']'
   bool condition(uint16_t* code);
   /// A formula, or two formulas with a comparison between them, with or without brackets around it.
@@ -146,6 +149,7 @@ class ExpressionCompiler {
   Fault fault_;
   const bool ngc_;
   const unsigned most_brackets_;
+  unsigned behind_round_ = 0;  ///< place in the code behind the ROUND that was compiled last, 0 = none
   bool word_ = false;      ///< the value of a word without brackets is being compiled
   bool compared_ = false;  ///< a comparison has been compiled
 };

@@ -27,6 +27,7 @@ constexpr IsoRules make_rules() {
   rules.most_loop_number = 9999;                 // 14.5.3 prints DO 210
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     rules.word[at(letter)] = WordFormat{.known = true, .refusal = {}, .integer = false, .integer_digits = 12, .fraction_digits = 8};
+  for (const char* letter = "ABCIJQRUVWXYZ"; *letter != 0; ++letter) rules.word[at(*letter)].round_keeps_unit = true;  // 14.2.4: X[ROUND[#1]]; K may be a count
   for (const char* letter = "NO"; *letter != 0; ++letter) rules.word[at(*letter)].integer = true;
   rules.word[at('N')].integer_digits = 8;
   rules.word[at('O')].integer_digits = 8;
