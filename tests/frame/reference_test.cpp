@@ -62,7 +62,9 @@ TEST(StartReturn, Alarms) {
   EXPECT_EQ(first.alarm, "P430");
   EXPECT_TRUE(first.path().empty());
   EXPECT_NE(first.alarm_detail.find("xis X"), std::string::npos);
-  EXPECT_EQ(m700("G28 X0\nG29 Y5.\nM30").alarm, "P430");  // an axis that has no point
+  // "If G28 is not performed after the power has been switched on": an axis without a point of its own goes with the second move only.
+  EXPECT_EQ(m700("G28 X9.\nG29 Y5.\nM30").path(), (Path{"rapid 9 0 0", "rapid 0 0 0", "rapid 0 5 0"}));
+  EXPECT_EQ(m700("G28 X9.\nG29 X2. Y5.\nM30").path(), (Path{"rapid 9 0 0", "rapid 0 0 0", "rapid 9 0 0", "rapid 2 5 0"}));
   EXPECT_EQ(m700("G28 X9.\nG29 X5. M8\nM30").alarm, "P436");
   Bench bench;  // since power-on: a program before will do
   bench.run("G28 X9.\nM30");

@@ -47,6 +47,18 @@ TEST(WorkRotation, EverySystemTurnsAboutAPointOfTheMachine) {  // (1), (2)
   EXPECT_EQ(run.path(), (Path{"rapid 30 20 0", "rapid 30 110 3", "rapid -20 10 3", "rapid 30 25 3", "rapid 30 26 3"}));
 }
 
+// 14.5, 14.10 (3): the place where the tool stands gets the commanded coordinates, also in systems that are turned: the words that name it move nothing.
+TEST(WorkRotation, APositionThatIsSetIsThatOfTheProgram) {
+  const auto path = [](const char* text) { return m700(std::string(text) + "\nM30").path(); };
+  EXPECT_EQ(path("G10 K90.\nG0 X10. Y0\nG92 X0 Y0\nX0 Y0\nX5. Y0"), (Path{"rapid 0 10 0", "rapid 0 15 0"}));
+  EXPECT_EQ(path("G10 K90.\nG0 X10. Y0\nG92 X3.\nX3. Y0\nX5. Y0"), (Path{"rapid 0 10 0", "rapid 0 12 0"}));  // Y stays what it was
+  EXPECT_EQ(path("G10 K90.\nG0 X10. Y2.\nG92 X1. Y1.\nG91 X1.\nG90 X1. Y1."), (Path{"rapid -2 10 0", "rapid -2 11 0", "rapid -2 10 0"}));
+  EXPECT_EQ(path("G0 X10. Y0\nG92 X0 Y0\nG10 K90.\nX5. Y0"), (Path{"rapid 10 0 0", "rapid 0 15 0"}));  // the printed order: set, then turned about the centre
+  Bench bench;
+  bench.param("8623", "10").param("8624", "20").work_offset(1, {1, 2, 0});
+  EXPECT_EQ(bench.run("G10 K30.\nG0 X10. Y5.\nG92 X0 Y0\nX0 Y0\nG92 X7. Y8.\nX7. Y8.\nM30").path().size(), 1u);
+}
+
 TEST(WorkRotation, TheMachineAndTheCounterDoNotTurn) {  // (2), (3)
   const Outcome run = m700("G10 K90.\nG0 X10.\n#100=#5001 #101=#5002 #102=#5021 #103=#5022\nG53 X3. Y4.\nG28 X5. Y0\nM30");
   EXPECT_EQ(run.path(), (Path{"rapid 0 10 0", "rapid 3 4 0", "rapid 0 5 0", "rapid 0 0 0"}));

@@ -4,6 +4,7 @@
 
 #include "interpret/functions/functions.hpp"
 #include "interpret/program_map.hpp"
+#include "interpret/work_rotation.hpp"
 
 namespace nc {
 
@@ -88,6 +89,17 @@ static AxisVec vector_in_place(const InForce& in) {
   return beside;
 }
 
+/// M700 13.21 (2): where a place of the machine lies in the hypothetical machine coordinates that have turned with the workpiece systems, in which their zero points are counted.
+static AxisVec in_turned_machine(const InForce& in, const AxisVec& machine) {
+  if (!in.state.work_turned) return machine;
+  const AxisVec zero = in.zero();
+  AxisVec at;
+  for (unsigned i = 0; i < in.axis_count; ++i) at[i] = machine[i] - zero[i];
+  at = work_rotation(in, in.records->work_turn.reached).apply_inverse(at);
+  for (unsigned i = 0; i < in.axis_count; ++i) at[i] += zero[i];
+  return at;
+}
+
 Execution do_coordinate_set(BlockContext& in) {
   const Command& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
@@ -106,16 +118,17 @@ Execution do_coordinate_set(BlockContext& in) {
     return Execution::done;
   }
   const AxisVec beside = vector_in_place(in);
+  AxisVec here = in.state.machine;
+  for (unsigned i = 0; i < in.axis_count; ++i) here[i] += beside[i];
+  const AxisVec counted = in_turned_machine(in, here);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (!w.target.commands(i)) continue;
     // M700 14.5, 14.10 (3): the reading of the axis, including compensation, becomes the value; the shift is the same for all systems. RS-274/NGC 3.5.18: a
     // tool length that shifts the reading belongs to it.
     const double length = in.dialect->rules.length.shifts_reading ? in.state.applied[i] : 0;
-    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] + beside[i] - length - in.frames.zero(in.state.work_system, i) - w.target[i];
+    const double shift = in.frames.get(Frames::shift_key(i)) + counted[i] - length - in.frames.zero(in.state.work_system, i) - w.target[i];
     in.set_table(Frames::shift_key(i), shift);
   }
-  AxisVec here = in.state.machine;
-  for (unsigned i = 0; i < in.axis_count; ++i) here[i] += beside[i];
   mirror_from_here(in, w.target.axes(), here);
   keep_rotation_center(in, zero_before);
   return Execution::done;
@@ -156,6 +169,22 @@ Execution do_shift_restore(BlockContext& in) {
   return at == AxisVec{} && in.words.target.axes() == 0 ? Execution::done : shift_to(in, at);
 }
 
+/// The axes of radius compensation that stand beside the program when one of them is preset, 0 = none.
+static uint32_t axes_beside(const BlockInHand& in) {
+  const Compensation& comp = in.state.comp;
+  const uint32_t plane = in.in_contour() ? 1u << comp.axis[0] | 1u << comp.axis[1] : 0;
+  return (plane & in.words.target.axes()) != 0 ? plane : 0;
+}
+
+/// M700 14.12, precaution (1): the coordinates become those of the machine less the offset, "thus the compensation vector will be temporarily canceled": the axes stay where the block before
+/// has brought them, at right angles to it, and the next block leads to the contour as a first one does.
+static void leave_vector_out(BlockContext& in, uint32_t axes) {
+  AxisVec here = in.state.machine;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((axes >> i) & 1) != 0) here[i] = in.world.machine.v[i];
+  leave_for_machine(in, here, axes);
+}
+
 Execution do_coordinate_preset(BlockContext& in) {
   const Command& w = in.words;
   if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: the code exists in list 1 only, chosen by #1267 bit 0
@@ -165,6 +194,9 @@ Execution do_coordinate_preset(BlockContext& in) {
     if (!w.target.commands(i)) continue;
     if (w.target[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.target[i]);
   }
+  const uint32_t beside = axes_beside(in);
+  if (beside != 0 && !in.world_fresh) return in.need(NC_SYNC_POSITION | BlockInHand::kSyncAhead);
+  if (beside != 0) leave_vector_out(in, beside);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (!w.target.commands(i)) continue;
     in.set_table(Frames::shift_key(i), 0);

@@ -129,15 +129,17 @@ Execution do_start_return(BlockContext& in) {
   const AxisVec position = in.position();
   AxisVec mid = position;
   uint32_t known = 0;
+  bool returned = false;  // (5): "if automatic reference position return is not performed", by whichever axis
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const OptionalDouble given = in.records->midpoints.axis[i];
+    returned = returned || given.has_value();
     if (!w.target.commands(i) || !given.has_value()) continue;
     mid[i] = *given;
     if (((in.settings.turning >> i) & 1) != 0)
       mid[i] = position[i] + turn_to(within_one_turn(mid[i]), within_one_turn(position[i]), ((in.settings.short_cut >> i) & 1) != 0);
     known |= 1u << i;
   }
-  if (known == 0) {
+  if (!returned) {
     in.raise_code(Condition::no_reference, *w.one_shot);
     for (unsigned i = 0; i < in.axis_count && in.fault.axis < 0; ++i)
       if (w.target.commands(i)) in.fault.axis = static_cast<int8_t>(i);
@@ -145,7 +147,7 @@ Execution do_start_return(BlockContext& in) {
   }
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  {
+  if (known != 0) {
     const WithoutStrokeCheck to_the_point(in);
     style.transparent = true;
     move_linear(in, mid, known, style);
