@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -158,8 +159,28 @@ TEST(ParameterTable, SaysWhatAValueCanBe) {
   EXPECT_FALSE(takes("1109", 0.5));
   EXPECT_FALSE(takes("8213", 1.5));
   EXPECT_FALSE(takes("1206", -1));
+  for (const char* type : {"7102", "7302", "7312"}) {  // 13.5.2: what stands beside a program is the kind of the call
+    EXPECT_TRUE(takes(type, 3)) << type;
+    EXPECT_FALSE(takes(type, 4)) << type;
+    EXPECT_FALSE(takes(type, 1.5)) << type;
+  }
+  for (const char* number : {"7103", "7303", "7313"}) EXPECT_TRUE(takes(number, 9000)) << number;
+  for (const char* percent : {"8019", "8022", "8023"}) {  // 13.15: of 100 % nothing of the speed would be left
+    EXPECT_TRUE(takes(percent, 99)) << percent;
+    EXPECT_TRUE(takes(percent, -50)) << percent;
+    EXPECT_FALSE(takes(percent, 100)) << percent;
+    EXPECT_FALSE(takes(percent, -1001)) << percent;
+  }
   EXPECT_TRUE(takes("1229", 5));        // bits
   EXPECT_TRUE(takes("99999", -123.5));  // nothing asks for it
+}
+
+// What #1041 sets in inch are the rows whose unit is one of length or speed.
+TEST(ParameterTable, KnowsItsLengths) {
+  for (const nc::ParameterRow& row : nc::dialect(NC_DIALECT_M700).parameters->numbers) {
+    if (row.bit >= 0) continue;
+    EXPECT_EQ(nc::is_length(row.what), std::strstr(row.values, "mm") != nullptr) << row.first;
+  }
 }
 
 TEST(ParameterTable, IsSorted) {

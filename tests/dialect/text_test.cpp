@@ -109,6 +109,8 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
   EXPECT_EQ(detail({Condition::data_input_kind, -1, 'L', true, 9}), "G10 does not know L9.");
   EXPECT_EQ(detail({Condition::center_missing}), "The centre is missing: the block needs I, J or K, one of the two of its plane.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a code of this control.");
+  // Of a code that the control has it does not say so: G92.1 while coordinates are rotated (M700 14.12).
+  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 92.1}), "G92.1 is not possible in the modes that are in force, or a parameter switches it off.");
   EXPECT_EQ(detail({Condition::words_missing, -1, 'G', true, 4}), "G04 needs a word that is not there.");
   // A number that is no code is shown as it was programmed, not rounded to one that is.
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 0.15}), "G0.15 is not a code of this control.");

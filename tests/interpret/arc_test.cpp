@@ -2,6 +2,7 @@
 // Circles and helices (M700 6.3-6.6, DGSHAPE G02/G03).
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "support/pull.hpp"
@@ -145,7 +146,7 @@ TEST(Arc, OfALinearAndARotaryAxis) {  // M700 6.3; 3.2 note 5: in inch a degree 
 TEST(Arc, OfALinearAndARotaryAxisInInch) {  // M700 3.2 note 5
   Bench bench(NC_DIALECT_M700, axes("XYZc"));
   bench.param("1030", "C");
-  const Outcome run = bench.run("G20 G17 G0 X0 C0\nG91 G3 X1. C10. J1. F10.\nG1 C5.\nG90 G3 X0 C15. R0.5\nM30");
+  const Outcome run = bench.run("G20 G17 G0 X0 C0\nG91 G3 X1. C10. J10. F10.\nG1 C5.\nG90 G3 X0 C15. R0.5\nM30");
   ASSERT_EQ(run.alarm, "");
   const auto moves = run.moves();
   ASSERT_EQ(moves.size(), 3u);
@@ -165,6 +166,27 @@ TEST(Arc, OfALinearAndARotaryAxisInInch) {  // M700 3.2 note 5
   EXPECT_NEAR(moves[2].radius, 12.7, 1e-9);  // half a turn back in X; C stays
   EXPECT_NEAR(moves[2].machine.v[3], 15, 1e-9);
   EXPECT_NEAR(moves[2].length, 12.7 * std::numbers::pi, 1e-6);
+}
+
+// M700 3.2, format: the centre word of a rotary axis has the digits of degrees in inch as well, that of the linear axis those of inches.
+TEST(Arc, CentreWordsOfARotaryAxisAreDegrees) {
+  Bench bench(NC_DIALECT_M700, axes("XYZc"));
+  bench.param("1030", "C");
+  const auto centre = [&bench](const char* words) {
+    const Outcome run = bench.at(0, 0, 0).run("G20 G17 G0 X0 C0\nG90 G3 " + std::string(words) + " F10.\nM30");
+    EXPECT_EQ(run.alarm, "") << words;
+    return run.moves().empty() ? std::vector<double>{} : std::vector<double>{run.moves().back().center[0], run.moves().back().center[1]};
+  };
+  const auto near = [](const std::vector<double>& at, double x, double c) { return at.size() == 2 && std::fabs(at[0] - x) < 1e-9 && std::fabs(at[1] - c) < 1e-9; };
+  EXPECT_TRUE(near(centre("X1. C10. J10."), 0, 10));
+  EXPECT_TRUE(near(centre("X1. C10. J10000"), 0, 10));  // 0.001 deg
+  EXPECT_TRUE(near(centre("X2. C0 I1."), 25.4, 0));
+  Bench two(NC_DIALECT_M700, axes("XYZbc"));  // both axes turn: an arc of degrees
+  two.param("1029", "B").param("1030", "C");
+  const Outcome run = two.run("G20 G17 G0 B0 C0\nG17 B0 C0\nG90 G3 B10. C10. J10. F10.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  ASSERT_EQ(run.moves().size(), 1u);
+  EXPECT_NEAR(run.moves()[0].radius, 10, 1e-9);
 }
 
 TEST(Arc, TogetherWithLengthCompensation) {  // M700 App.2

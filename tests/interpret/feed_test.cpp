@@ -145,6 +145,12 @@ TEST(DigitFeed, ZeroIsRapidTraverse) {  // M700 7.3, table of (3) (a)
   EXPECT_EQ(run.last_modal().feed, 1);
   EXPECT_EQ(from_zero(bench, "F0 G0 X10.\nM30").path(), (Path{"rapid 10 0 0"}));
   EXPECT_EQ(from_zero(bench, "G2 X10. R5. F0\nM30").alarm, "P121");
+  run = from_zero(bench, "G2 X10. R5. F1\nF0\nG1 X20.\nM30");  // (c) "used in the G02 mode", whether it moves or not
+  EXPECT_EQ(run.alarm, "P121");
+  EXPECT_EQ(run.alarm_line, 2u);
+  EXPECT_EQ(from_zero(bench, "G3 F0\nM30").alarm, "P121");
+  EXPECT_EQ(from_zero(bench, "G2 X10. R5. F1\nG1 F0 X20.\nM30").alarm, "");
+  EXPECT_EQ(from_zero(bench, "G2 X10. R5. F1\nG81 Z-5. R-2. F0\nM30").alarm, "");  // the feed of a cycle is that of no arc
   EXPECT_EQ(from_zero(bench, "G1 X10. F0.\nM30").alarm, "P62");  // with a point it is a feed of 0
   EXPECT_EQ(feeds(from_zero(bench, "G4 P10 F2\nG1 X1.\nM30")), (Feeds{1650}));  // (b) beside an unmodal code
 }
@@ -208,6 +214,11 @@ TEST(TappingMode, TellsTheMachineAndAllowsNoBlockStop) {  // M700 7.11
 TEST(Dwell, XBeforeTheCodeIsALength) {  // M700 8.1 note 3
   EXPECT_EQ(m700("G20 X5. G04\nM30").dwells(), (std::vector<double>{50}));
   EXPECT_EQ(m700("G20 G04 X5.\nM30").dwells(), (std::vector<double>{5}));
+  EXPECT_EQ(m700("G20 X5000 G04\nM30").dwells(), (std::vector<double>{5}));
+  Bench type_2;  // 5.3: X5 is X5.
+  type_2.param("1078", "1");
+  EXPECT_EQ(type_2.run("G20 X5 G04\nM30").dwells(), (std::vector<double>{50}));
+  EXPECT_EQ(type_2.run("G20 G04 X5\nM30").dwells(), (std::vector<double>{5}));
   EXPECT_EQ(m700("G21 X5. G04\nM30").dwells(), (std::vector<double>{5}));
   EXPECT_EQ(m700("G04 X99999.999\nM30").alarm, "");
   EXPECT_EQ(m700("G04 X100000.\nM30").alarm, "P35");

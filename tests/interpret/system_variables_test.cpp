@@ -199,6 +199,44 @@ TEST(SystemVariables, WorkOffsets) {  // M700 10.2, both printed examples
   EXPECT_EQ(write_alarm(5221, "-100000"), "P35");
 }
 
+// M700 2.1 note 1: "compensation amounts as well as the variable data" are in the unit of #1041, whatever G20 and G21 say.
+TEST(SystemVariables, OffsetsAreInTheInitialUnit) {
+  Bench bench(NC_DIALECT_M700, axes("XYZc"));
+  bench.param("1041", "1").tool(3, 50.8);
+  const Outcome run = bench.run("#100=#2003\n#5221=1. #5224=30.\n#10001=.5\n#101=#5221 #102=#5224\nG54 G0 X0 C0\nG20\n#103=#2003\nG10 L10 P2 R1.\n#104=#10002\nG21 G10 L10 P4 R1.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_DOUBLE_EQ(run.var(100), 2);
+  EXPECT_EQ(run.path(), (Path{"rapid 25.4 0 0 30"}));
+  EXPECT_DOUBLE_EQ(bench.tool_now(1), 12.7);
+  EXPECT_DOUBLE_EQ(run.var(101), 1);
+  EXPECT_EQ(run.var(102), 30);
+  EXPECT_DOUBLE_EQ(run.var(103), 2);
+  EXPECT_DOUBLE_EQ(run.var(104), 1);
+  EXPECT_EQ(bench.tool_now(4), 1);  // the data of G10 are a command
+  EXPECT_EQ(bench.run("#10001=9999.\nM30").alarm, "");
+  EXPECT_EQ(bench.run("#10001=10000.\nM30").alarm, "P35");
+}
+
+// 13.5.5 "Precautions for reading parameters" (2), 13.11: "set from the setting and display unit".
+TEST(SystemVariables, ParametersAreInTheInitialUnit) {
+  Bench bench(NC_DIALECT_M700, axes("XYZc"));
+  bench.param("1041", "1").param("8206", "25.4", 'X').param("8206", "90", 'C').param("8030", "-1").param("1174", "254").param("8007", "50");
+  const auto read = [&bench](const char* number, const char* axis) {
+    const Outcome run = bench.run("#100000=" + std::string(number) + " #100002=" + axis + "\n#100=#100010\nM30");
+    EXPECT_EQ(run.alarm, "") << number;
+    return run.var(100);
+  };
+  EXPECT_DOUBLE_EQ(read("8206", "1"), 1);
+  EXPECT_EQ(read("8206", "4"), 90);  // degrees
+  EXPECT_DOUBLE_EQ(read("1174", "1"), 10);
+  EXPECT_EQ(read("8030", "1"), -1);  // which is no length
+  EXPECT_EQ(read("8007", "1"), 50);  // percent
+  EXPECT_EQ(bench.run("G10 L70\nP8206 A1 D2.00004\nP8206 A4 D45.\nP8030 D-1.\nG11\nM30").alarm, "");
+  EXPECT_DOUBLE_EQ(read("8206", "1"), 2);  // note 5: a ten-thousandth of an inch
+  EXPECT_EQ(read("8206", "4"), 45);
+  EXPECT_EQ(read("8030", "1"), -1);
+}
+
 TEST(SystemVariables, AnAmountInForceCountsFromTheNextBlockOn) {  // 12.1: a length with the next command of its axis
   Bench bench;
   bench.tool(1, 10).tool(2, 2);

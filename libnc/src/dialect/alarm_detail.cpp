@@ -37,6 +37,11 @@ bool of(const Dialect& dialect, const Fault& fault) {
   const FunctionRow* const row = find_function(dialect, static_cast<int>(std::lround(fault.value * 10)));
   return row != nullptr && row->function == kFunction;
 }
+/// The fault is about a code of the family: the control has it.
+bool of_known_code(const Dialect& dialect, const Fault& fault) {
+  if (!dialect.addresses.is(fault.letter, Role::code) || !fault.has_value || !(fault.value >= 0 && fault.value < 1e6)) return false;
+  return find_function(dialect, static_cast<int>(std::lround(fault.value * 10))) != nullptr;
+}
 /// A centre whose words have no sign (Series 8 G02): a circle through both ends may well exist.
 bool of_unsigned_centre(const Dialect& dialect, const Fault& fault) {
   return dialect.rules.arc.centre_by_quadrant && fault.letter != dialect.addresses.letter(Role::arc_radius);
@@ -155,6 +160,8 @@ constexpr Sentence kSentences[] = {
     {C::parity_vertical, "The block has an odd number of characters on the tape. Check the tape, or switch the parity check off.",
      nullptr},
     // G and M codes
+    {C::illegal_g, "A code of the block is not possible in the modes that are in force, or a parameter switches it off.", nullptr,
+     "{word} is not possible in the modes that are in force, or a parameter switches it off.", of_known_code},
     {C::illegal_g, "{word} is not a code of this control.", "There is no such code on this control."},
     {C::no_function, "The function that {word} asks for is not fitted.", "This function is not fitted.",
      "{word} is not available on this control."},

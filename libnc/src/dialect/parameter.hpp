@@ -38,6 +38,7 @@ enum class Parameter : uint8_t {
   start_high_accuracy,
   arc_joint_clamp,
   start_inch,
+  initial_inch,                ///< unit that offsets and parameters are set in, and in which a program reads and writes them
   dwell_skip,
   skip_feed,
   multi_skip_signals,          ///< [3]
@@ -90,12 +91,12 @@ enum class Parameter : uint8_t {
   m_call_code,                 ///< [10]
   m_call_type,                 ///< [10]
   m_call_program,              ///< [10]
-  second_aux_call,             ///< [2] type, program
+  second_aux_call_type, second_aux_call_program,
   g_call_code,                 ///< [10]
   g_call_type,                 ///< [10]
   g_call_program,              ///< [10]
-  s_call,                      ///< [2] type, program
-  t_call,                      ///< [2] type, program
+  s_call_type, s_call_program,
+  t_call_type, t_call_program,
   ascii_call_on,               ///< [2]
   ascii_call_letter,           ///< [2]
   ascii_call_type,             ///< [2]
@@ -206,6 +207,9 @@ constexpr bool is_common(Parameter parameter) {
   return parameter == Parameter::last_shared_of_first || parameter == Parameter::last_shared_of_second || parameter == Parameter::edit_lock_b ||
          parameter == Parameter::edit_lock_c || parameter == Parameter::power_off_clears_common;
 }
+
+/// The parameter is a length or a speed of linear axes, which is set in mm or in inch (Parameter::initial_inch).
+bool is_length(Parameter parameter);
 
 inline constexpr unsigned kParameters = static_cast<unsigned>(Parameter::count_);
 

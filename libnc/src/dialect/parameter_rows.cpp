@@ -130,6 +130,40 @@ bool parameter_of_axis(const Dialect& dialect, uint32_t number) {
   return false;
 }
 
+bool is_length(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::arc_tolerance:
+    case Parameter::skip_feed:
+    case Parameter::multi_skip_feed:
+    case Parameter::digit_feed:
+    case Parameter::digit_most:
+    case Parameter::accuracy_speed:
+    case Parameter::arc_joint_speed:
+    case Parameter::reference_position:
+    case Parameter::arc_radius_shift:
+    case Parameter::corner_least_speed:
+    case Parameter::accuracy_clamp:
+    case Parameter::measure_feed:
+    case Parameter::measure_deceleration:
+    case Parameter::measure_range:
+    case Parameter::corner_override_zone:
+    case Parameter::step_clearance:
+    case Parameter::peck_clearance:
+    case Parameter::tap_clearance:
+    case Parameter::spline_tolerance:
+    case Parameter::fairing_length:
+    case Parameter::spline_minute_length:
+    case Parameter::judgement_length:
+    case Parameter::space_divisor:
+    case Parameter::spiral_tolerance:
+    case Parameter::tool_change_position:
+    case Parameter::creep:
+    case Parameter::work_turn_center:
+    case Parameter::work_turn_vector: return true;
+    default: return false;
+  }
+}
+
 bool parameter_is_common(const Dialect& dialect, uint32_t number) {
   ParameterKey key{};
   key.number = number;

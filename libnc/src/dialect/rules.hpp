@@ -33,7 +33,7 @@ struct NumberRules {
   /// How many setting units there are in a micrometre, by the value of the parameter for this unit; 0 means that the parameter is not set
   /// (M700 2.1). DGSHAPE 2-1: the unit is a micrometre.
   double (*units_per_micrometre)(double parameter);
-  /// A length that a formula gives is rounded to the least unit (HX 14.2.4). Else it is what has been calculated (M700 13.5.4; DGSHAPE has no
+  /// A length that a formula gives is rounded to the least unit (HX 14.2.4; WordFormat::round_keeps_unit for ROUND). Else it is what has been calculated (M700 13.5.4; DGSHAPE has no
   /// formulas).
   bool rounds_formulas;
   /// A position that a program reads is what has been calculated (RS-274/NGC 3.3: numbers are not counted in a unit). Otherwise it is rounded to the setting
@@ -502,7 +502,7 @@ struct CodeCallRules {
 
 /// Data setting by program. Which value of L sets what is a table (DataInputRow).
 struct DataInputRules {
-  /// Offsets that a program reads and writes as variables are in the unit in force (HX 14.2.3, 13.3). Otherwise in mm (M700 13.5.5).
+  /// Offsets that a program reads and writes as variables are in the unit in force (HX 14.2.3, 13.3). Otherwise in the one of Parameter::initial_inch (M700 2.1).
   bool variables_in_unit = false;
   /// In incremental mode the value is added to the one that is set (M700 12.7, 14.10 (6)). In DGSHAPE G10 the modes make no difference.
   bool incremental_adds;

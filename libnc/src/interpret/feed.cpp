@@ -94,6 +94,8 @@ Execution take_feed_word(BlockInHand& in) {
   const double raw = in.words.get(Role::feed);
   const uint16_t before = modal.feed_digit;
   if (is_feed_digit(in, raw)) {
+    const bool drills = in.words.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
+    if (raw == 0 && !drills && is_arc(modal.of(Mode::motion))) return in.raise(Condition::arc_feed_zero, Role::feed, raw);  // 7.3 (2) (c)
     modal.feed = raw;
     modal.feed_digit = static_cast<uint16_t>(raw + 1);
   } else {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "frame/tool_life.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
@@ -158,6 +159,16 @@ Execution select_parameter(Access& a) {
   return Execution::done;
 }
 
+/// M700 2.1 note 1, 13.5.5 "Precautions for reading parameters" (2), 13.11: mm of one unit of a parameter where a program reads or sets this value of it. The -1 of #8030 is no length
+/// (13.18).
+double unit_of_parameter(const InForce& in, uint32_t number, int axis, double value) {
+  if (!in.settings.initial_inch) return 1;
+  const ParameterRow* const row = find_parameter(*in.dialect, ParameterKey{number, 0, -1});
+  if (row == nullptr || !is_length(row->what)) return 1;
+  if (row->by_axis && axis >= 0 && ((in.rotary >> axis) & 1) != 0) return 1;
+  return row->what == Parameter::spline_minute_length && value == -1 ? 1 : kMillimetresPerInch;
+}
+
 /// A parameter that was never set reads as 0. A text of one letter reads as the code of the letter.
 Eval read_parameter(Access& a) {
   const auto& [selected, part, axis] = a.in.records->selection.parameter;
@@ -171,7 +182,7 @@ Eval read_parameter(Access& a) {
     a.in.raise(Condition::no_such_data, Sign::variable, a.number);
     return Eval::fault;
   }
-  return give(a, value);
+  return give(a, value / unit_of_parameter(a.in, number, index, value));
 }
 
 /// HX 14.2.3: a parameter as a variable of its own number.

@@ -493,7 +493,9 @@ Move& emit_shaped(BlockContext& in, const MoveFrame& frame, const MoveShape& sha
 
 namespace {
 
-/// M700 3.2 note 5: in inch the arc of a linear and a rotary axis is made with a degree as a tenth of an inch, and with I J K and R in inch. So it is an arc on
+constexpr double kTenthOfInch_mm = 2.54;
+
+/// M700 3.2 note 5: in inch the arc of a linear and a rotary axis is made with a degree as a tenth of an inch, and with R in inch. So it is an arc on
 /// a cylinder (6.9) on which a degree has that length.
 class InchDegrees {
  public:
@@ -503,7 +505,7 @@ class InchDegrees {
     if (!on_) return;
     state_.map.kind = AxisMap::Kind::cylinder;
     state_.map.rotary = static_cast<uint8_t>(std::countr_zero(turning));
-    state_.map.scale = 2.54;  // mm per degree
+    state_.map.scale = kTenthOfInch_mm;  // mm per degree
     state_.special |= kSpecialMap;
   }
   ~InchDegrees() {
@@ -536,6 +538,17 @@ Execution take_absolute_centre(BlockInHand& in, const PlaneAxes& plane, double c
   return Execution::done;
 }
 
+/// M700 3.2, format and note 5: in inch the centre word of a rotary axis is in degrees as its positions are, each of which then counts as a tenth of an inch
+/// beside a linear axis. On a cylinder (6.9) and in the plane of G12.1 both words are lengths.
+double centre_word(const BlockInHand& in, const PlaneAxes& plane, unsigned i) {
+  const auto axis = static_cast<unsigned>(i == 0 ? plane.h : plane.v);
+  const uint32_t turning = in.rotary & (1u << plane.h | 1u << plane.v);
+  const bool degrees = (turning >> axis & 1) != 0 && in.dialect->rules.arc.degree_is_tenth_of_inch && in.state.modal.is(Function::inch) && !in.state.map.active();
+  if (!degrees) return length_of(in, plane.center[i]);
+  const double deg = length_value(in, in.words.written(plane.center[i]), true, false);
+  return turning == 1u << axis ? deg * kTenthOfInch_mm : deg;
+}
+
 }  // namespace
 
 Execution read_arc_words(BlockInHand& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
@@ -556,7 +569,7 @@ Execution read_arc_words(BlockInHand& in, const PlaneAxes& plane, uint32_t comma
     words.radius = in.state.arc_radius;
   } else {
     for (unsigned i = 0; i < 2; ++i)
-      if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
+      if (w.has(plane.center[i])) words.center[i] = centre_word(in, plane, i);
     for (unsigned i = 0; i < 2 && rules.centre_by_quadrant; ++i)
       if (words.center[i] < 0) return in.raise(Condition::arc_center, plane.center[i], w.get(plane.center[i]));
     if (in.state.modal.is(Function::centre_absolute)) {

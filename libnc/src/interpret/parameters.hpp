@@ -98,6 +98,7 @@ struct Settings {
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;
   bool start_inch = false;            ///< #1152
+  bool initial_inch = false;          ///< #1041 I_inch
   uint32_t parity_units = 0;          ///< #9n15: bit n: of the tapes of input device n the characters of each block are counted
   double scaling_factor = 1;          ///< #8072 SCALING P
   WordSlot work_turn_axis[2] = {kNoWord, kNoWord};  ///< #8621, #8622: plane of the rotation of 13.21, kNoWord = the first and the second axis

@@ -74,13 +74,13 @@ CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) 
     if (!dialect.macro_codes.holds(g.code) && !(calls.system_codes && dialect.own_codes.holds(g.code))) g.program = 0;
     calls.any = calls.any || m.program != 0 || g.program != 0;
   }
-  read_call(whole, {P::second_aux_call, 0}, {P::second_aux_call, 1}, &calls.b);
-  read_call(whole, {P::s_call, 0}, {P::s_call, 1}, &calls.s);
+  read_call(whole, P::second_aux_call_type, P::second_aux_call_program, &calls.b);
+  read_call(whole, P::s_call_type, P::s_call_program, &calls.s);
   if (const auto tool_program = dialect.rules.code_call.tool_program; tool_program != nullptr) {
     calls.t.program = tool_program(whole({P::tool_macro, 0}, 0), whole({P::tool_macro, 1}, 0));
     calls.t.variable = dialect.rules.code_call.tool_variable;
   } else {
-    read_call(whole, {P::t_call, 0}, {P::t_call, 1}, &calls.t);
+    read_call(whole, P::t_call_type, P::t_call_program, &calls.t);
   }
   if (whole({P::words_call, kCallsBySecondAux}, 1) == 0) calls.b.program = 0;
   if (whole({P::words_call, kCallsByS}, 1) == 0) calls.s.program = 0;

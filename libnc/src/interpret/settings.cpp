@@ -110,6 +110,7 @@ void SettingsReader::units() {
 /// What is in force at power on, and which codes exist.
 void SettingsReader::start() {
   s_.start_inch = flag(P::start_inch);
+  s_.initial_inch = flag(P::initial_inch);
   s_.start_absolute = value(P::start_absolute, 1) != 0;
   s_.start_linear = flag(P::start_linear);
   s_.start_stroke_check = flag(P::start_stroke_check);

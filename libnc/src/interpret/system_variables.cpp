@@ -91,9 +91,11 @@ bool tool_key(Access& a, uint32_t* key) {
   *key = a.in.frames.tool_key(number, column);
   return true;
 }
-/// mm of one unit of an offset that is read or written as a variable.
+/// mm of one unit of an offset that is read or written as a variable: of the unit that the program is written in (HX), or of the one that offsets are set in
+/// (M700 2.1 note 1: #1041, whatever G20 and G21 say).
 double unit_of_offsets(const Access& a, bool length) {
-  return length && a.in.dialect->rules.data_input.variables_in_unit && a.in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1;
+  const bool inch = a.in.dialect->rules.data_input.variables_in_unit ? a.in.state.modal.is(Function::inch) : a.in.settings.initial_inch;
+  return length && inch ? kMillimetresPerInch : 1;
 }
 Execution set_offset(Access& a, uint32_t key, bool length, double end) {
   const double value = a.written * unit_of_offsets(a, length);

@@ -76,7 +76,7 @@ Execution work_offset(BlockInHand& in, bool extended, uint32_t l) {
 double end_of_offset(const InForce& in, unsigned column) {
   const RangeRules& range = in.dialect->rules.range;
   const bool radius = column == NC_TOOL_RADIUS || column == NC_TOOL_RADIUS_WEAR;
-  if (in.state.modal.is(Function::inch)) return (radius ? range.end_of_radius_inch : range.end_of_offset_inch) * kMillimetresPerInch;
+  if (in.state.modal.is(Function::inch) || in.settings.initial_inch) return (radius ? range.end_of_radius_inch : range.end_of_offset_inch) * kMillimetresPerInch;
   return radius ? range.end_of_radius_mm : range.end_of_offset_mm;
 }
 

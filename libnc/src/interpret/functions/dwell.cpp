@@ -7,9 +7,10 @@
 namespace nc {
 namespace {
 
-/// M700 8.1 note 3: an X before G04 is read as a length. In inch, which has one decimal more, the time becomes ten times as long.
+/// M700 8.1 note 3: an X before G04 is read as a length. In inch, which has one decimal more, the time becomes ten times as long, unless X counts in that
+/// decimal itself. In type II X5 is X5. (5.3).
 bool read_as_inch(const BlockInHand& in) {
-  if (!in.state.modal.is(Function::inch) || !in.words.pointed(Role::dwell_seconds)) return false;
+  if (!in.state.modal.is(Function::inch) || !(in.words.pointed(Role::dwell_seconds) || in.settings.whole_positions())) return false;
   return stands_before(*in.block, in.front, in.word(Role::dwell_seconds), Function::dwell);
 }
 

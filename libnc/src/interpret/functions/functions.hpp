@@ -46,6 +46,7 @@ Execution do_skip(BlockContext& in);               // skip.cpp
 Execution skip_answered(BlockInHand& in);         // skip.cpp
 /// Where the amounts end that a program may give an offset of a tool, in mm. `column`: nc_tool_column.
 double end_of_offset(const InForce& in, unsigned column);       // data_input.cpp: mm, by the unit in force
+double unit_of_parameter(const InForce& in, uint32_t number, int axis, double value);  // machine_data_variables.cpp
 bool parameter_exists(const InForce& in, uint32_t number);     // machine_data_variables.cpp: whether it is the number of a parameter
 double end_of_work_offset(const InForce& in, unsigned axis);    // the same, or deg
 void store_skip_position(InForce& in, const AxisVec& machine, uint32_t axes, bool touched);   // skip.cpp

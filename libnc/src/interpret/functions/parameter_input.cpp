@@ -67,7 +67,7 @@ Execution read_data(BlockInHand& in, ParameterData* data) {
     data->number = bit % 10;
   } else if (w.has(Role::parameter_data)) {
     if (!(std::fabs(w.get(Role::parameter_data)) < 1e9)) return refuse(in, Role::parameter_data);
-    data->number = data_of(w.get(Role::parameter_data), in.settings.setting_unit_mm);
+    data->number = data_of(w.get(Role::parameter_data), in.settings.initial_inch ? in.settings.setting_unit_inch : in.settings.setting_unit_mm);
   } else {
     if (in.block->name_length >= sizeof data->text) return in.raise(Condition::parameter_input, Sign::file_name);
     data->is_text = true;
@@ -112,6 +112,7 @@ Execution parameter_block(BlockInHand& in) {
   // Note 3: A is ignored for a parameter that axes do not have for themselves.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
   const ParameterId id = ParameterId::of_number(number);
+  if (data.bit < 0 && !data.is_text) data.number *= unit_of_parameter(in, number, of, data.number);
   const bool kept = data.is_text ? in.set_parameter(id, -1, of, static_cast<const char*>(data.text)) : in.set_parameter(id, data.bit, of, data.number);
   if (!kept) return refuse(in, Role::parameter_number);
   if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets acts at once
