@@ -112,10 +112,14 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
   if (in.state.compensated()) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
   if (!w.has(plane.center[0]) && !w.has(plane.center[1])) return in.raise_mode(Condition::center_missing, Mode::motion);
+  const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
+  // In inch a degree of a rotary axis has the length of a tenth of an inch in arcs (3.2 note 5); 6.13 does not say what that means here.
+  const uint32_t turning = in.rotary & (1u << h | 1u << v);
+  if (turning != 0 && in.dialect->rules.arc.degree_is_tenth_of_inch && in.state.modal.is(Function::inch) && !in.state.map.active())
+    return in.raise(Condition::no_function, in.axis_words.word(first_of(turning)));
   double center[2] = {0, 0};
   for (unsigned i = 0; i < 2; ++i)
     if (w.has(plane.center[i])) center[i] = length_of(in, plane.center[i]);
-  const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (program_mapped(in)) {
     if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
     if (scaled_unevenly(in, h, v)) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
