@@ -8,10 +8,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <utility>
+
+#include "runtime/programs/called_number.hpp"
 
 namespace nc::rt::services {
 namespace {
@@ -177,11 +180,29 @@ bool ProgramStore::may_name(const std::string& name, Outcome* outcome) const {
   return false;
 }
 
-// Whether an existing program may be changed now. True also when there is none.
-bool ProgramStore::may_change(int folder, const std::string& name, Outcome* outcome) const {
+// The program that is called now and in whose place a call would find a new file of this name: the number counts, whatever the ending, and letters in any case. "" = none.
+static std::string hidden_by(const std::string& name, const std::vector<std::string>& called) {
+  const auto number = called_number(name);
+  const auto is_same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  for (const std::string& other : called)
+    if (number ? called_number(other) == number : std::equal(name.begin(), name.end(), other.begin(), other.end(), is_same)) return other;
+  return "";
+}
+
+// Whether a program that is not there may get this name now: one that runs calls what was checked.
+bool ProgramStore::may_appear(const std::string& name, Outcome* outcome) const {
   if (!may_name(name, outcome)) return false;
+  const Use use = use_({});
+  const std::string hidden = use.active ? hidden_by(name, use.called) : "";
+  if (!hidden.empty()) *outcome = Outcome::refused(Refused::kProtected, "a program in execution calls " + hidden + ", and would find " + name + " in its place: reset first");
+  return hidden.empty();
+}
+
+// Whether an existing program may be changed now. When there is none, whether it may appear.
+bool ProgramStore::may_change(int folder, const std::string& name, Outcome* outcome) const {
   struct stat info {};
-  if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return true;
+  if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return may_appear(name, outcome);
+  if (!may_name(name, outcome)) return false;
   const Use use = use_({});
   if (!S_ISREG(info.st_mode)) *outcome = Outcome::refused(Refused::kProtected, name + " is no program");
   else if (is_protected(info)) *outcome = Outcome::refused(Refused::kProtected, name + " is protected");
@@ -318,7 +339,7 @@ Outcome ProgramStore::rename(const Call& call) {
   const Held folder(open_folder());
   if (folder.number < 0) return failed("the folder of programs");
   Outcome outcome;
-  if (!may_change(folder.number, name, &outcome) || !may_name(to, &outcome)) return outcome;
+  if (!may_change(folder.number, name, &outcome) || !may_appear(to, &outcome)) return outcome;
   if (renameat2(folder.number, name.c_str(), folder.number, to.c_str(), RENAME_NOREPLACE) != 0)
     return errno == EEXIST ? Outcome::refused(Refused::kProtected, to + " is there already") : failed(name);
   return sync_folder(folder.number) ? Outcome::done() : failed(name);

@@ -73,6 +73,7 @@ class ProgramStore {
   int open_folder() const;
   bool may_change(int folder, const std::string& name, Outcome* outcome) const;
   bool may_name(const std::string& name, Outcome* outcome) const;
+  bool may_appear(const std::string& name, Outcome* outcome) const;
   Upload* find(std::uint64_t session, const Call& call);
   void drop(std::uint32_t number);
   void drop_silent();

@@ -321,5 +321,20 @@ TEST_F(Store, AFullDiskIsToldBeforeAnythingIsSent) {
   EXPECT_EQ(result, 0);
 }
 
+// A call finds the exact name before one with an ending, and others by their number: a new file is not put in front of what was checked.
+TEST_F(Store, NothingIsPutInFrontOfACalledProgram) {
+  use_.active = true;
+  use_.selected = {"main.nc"};
+  use_.called = {"O2000.nc", "Part.nc"};
+  for (const char* name : {"O2000", "o2000.a.nc", "O02000.nc", "part.NC"}) EXPECT_EQ(begin(name, "M99").why, Refused::kProtected) << name;
+  EXPECT_TRUE(begin("O2001.nc", "M99").ok);
+  EXPECT_EQ(store_->rename(call(Service::kProgramRename, {{Field::kFile, "other.nc"}, {Field::kNewName, "O2000"}})).why, Refused::kProtected);
+  ASSERT_TRUE(data("M99", 0).ok);
+  ASSERT_TRUE(finish().ok);
+  EXPECT_EQ(store_->rename(call(Service::kProgramRename, {{Field::kFile, "O2001.nc"}, {Field::kNewName, "O2000"}})).why, Refused::kProtected);
+  use_.active = false;
+  EXPECT_TRUE(store_->rename(call(Service::kProgramRename, {{Field::kFile, "O2001.nc"}, {Field::kNewName, "O2000"}})).ok);
+}
+
 }  // namespace
 }  // namespace nc::rt::services
