@@ -125,7 +125,7 @@ bool Gateway::attach() {
   }
   if (options_.commands && stands_by_) another_commands_ = segment_.get()->identity.commands != 0;
   else if (options_.commands && !claim_commands(&error))
-    std::fprintf(stderr, "ncdds: warning: no commands: %s\n", error.c_str());
+    std::fprintf(stderr, "ncdds: warning: no commands: %s%s\n", error.c_str(), passes_services() ? "; the services, and what they command, are passed on all the same" : "");
   if (services_) services_->set_gate(service_gate());
   heart_.restart();
   written_any_ = false;
@@ -137,9 +137,12 @@ bool Gateway::attach() {
   table->fill(segment_.get()->machine, partition_.c_str());
   write(signal_table_, &table->table);
   say("publishes \"" + std::string(share::text_of(segment_.get()->machine.machine)) + "\" as " + partition_ +
-      " in domain " + std::to_string(options_.access.domain) + (may_command_ ? ", takes commands" : ""));
+      " in domain " + std::to_string(options_.access.domain) + (may_command_ ? ", takes commands" : passes_services() ? ", passes services on, and no other commands" : ""));
   return true;
 }
+
+// Whether clients of the services may do more than view: they do not need the commands of this gateway.
+bool Gateway::passes_services() { return services_ && service_gate().rights.has(Right::kOperate); }
 
 // What clients of the services may do: see all that the services show, and more where commands are on at both ends; with DDS Security each client only what
 // its permissions let it write. Without it DDS does not know who asks, so over a network nobody may do anything.

@@ -59,6 +59,7 @@ class Gateway {
   bool attach();
   bool claim_commands(std::string* error);
   ServiceGate service_gate();
+  bool passes_services();
   void detach(const char* why);
   bool look();
   bool publish_status(std::int64_t now_ns);

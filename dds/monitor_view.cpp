@@ -167,15 +167,7 @@ nlohmann::json signals_json(const MonitorView& view) {
 
 // ECMA-48: a terminal obeys the control characters C0, DEL and C1. C1 are U+0080 to U+009F, in UTF-8 two bytes of which the first is C2; a terminal without
 // UTF-8 obeys the second byte alone.
-std::string printable(const std::string& text) {
-  std::string clean = rt::valid_utf8(text);
-  for (std::size_t at = 0; at < clean.size(); ++at) {
-    const auto byte = static_cast<unsigned char>(clean[at]);
-    if (byte < ' ' || byte == 0x7f) clean[at] = ' ';
-    if (byte == 0xc2 && static_cast<unsigned char>(clean[at + 1]) < 0xa0) clean.replace(at, 2, " ");
-  }
-  return clean;
-}
+std::string printable(const std::string& text) { return rt::seen_text(text); }
 
 std::string alarm_line(const AlarmView& alarm) {
   std::string text = alarm.code.empty() ? alarm.text : alarm.code + " " + alarm.text;

@@ -2,17 +2,19 @@
 // See service_caller.hpp.
 #include "dds/service_caller.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
 
+#include "dds/security.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::dds {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kMs = 1'000'000, kSecond = 1000 * kMs;
 constexpr std::int64_t kFindNs = 10'000 * kMs;      // for a gateway to be found, or one that takes over from another
 constexpr std::int64_t kPatienceNs = 30'000 * kMs;  // for a reply
 constexpr int kTaken = 16;
@@ -35,18 +37,31 @@ bool put(const std::string& from, char (&to)[kSize]) {
 
 }  // namespace
 
-bool ServiceCaller::open(const Access& access, const std::string& control, const std::string& client, std::string* error) {
+ServiceCaller::Result ServiceCaller::open(const Access& access, const std::string& control, const std::string& client, std::string* error) {
   access_ = access;
   control_ = control;
   client_ = client;
-  if (!participant_.open(access, error)) return false;
+  if (!access.security.empty()) {
+    Identity identity;
+    if (!read_identity(access.security, &identity, error)) return Result::kNobody;
+    identity_ = identity.subject;
+    ends_s_ = identity.ends_s;
+  }
+  if (!participant_.open(access, error)) return Result::kNobody;
   replies_ = make_reader(participant_.get(), Topic::kServiceReply, control + "/" + client, error);
-  if (replies_ <= 0) return false;
+  if (replies_ <= 0) return replies_ == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY ? Result::kNotAllowed : Result::kNobody;
   waitset_ = dds_create_waitset(participant_.get());
   const dds_entity_t condition = dds_create_readcondition(replies_, DDS_ANY_STATE);
-  if (waitset_ > 0 && condition > 0 && dds_waitset_attach(waitset_, condition, 0) >= 0) return true;
+  if (waitset_ > 0 && condition > 0 && dds_waitset_attach(waitset_, condition, 0) >= 0) return Result::kDone;
   *error = "the replies cannot be waited for";
-  return false;
+  return Result::kNobody;
+}
+
+// From the end of its certificate on a participant is heard by nobody, and waits in vain.
+bool ServiceCaller::has_expired(std::string* error) const {
+  if (identity_.empty() || rt::share::wall_ns() / kSecond < ends_s_) return false;
+  *error = "the identity of " + identity_ + " (" + access_.security + ") has expired at " + utc_text(ends_s_);
+  return true;
 }
 
 // The writer on the topic of a right, or why there is none.
@@ -61,10 +76,11 @@ ServiceCaller::Result ServiceCaller::writer_of(rt::services::Right right, dds_en
   const dds_entity_t made = made_writer(right, error);
   if (made <= 0) return made == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY ? Result::kNotAllowed : Result::kNobody;
   *writer = made;
-  for (const std::int64_t end = now() + kFindNs; now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
+  for (const std::int64_t end = now() + kFindNs; now() < end && !has_expired(error); std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
     dds_publication_matched_status_t matched{};
     if (dds_get_publication_matched_status(made, &matched) >= 0 && matched.current_count > 0) return Result::kDone;
   }
+  if (has_expired(error)) return Result::kExpired;
   *error = "nobody takes requests for \"" + control_ + "\" in DDS domain " + std::to_string(access_.domain) + ": is ncdds running, with the same --domain?";
   return Result::kNobody;
 }
@@ -86,6 +102,7 @@ ServiceCaller::Result ServiceCaller::call(rt::services::Right right, const std::
   while (whole_.count(number_) == 0 && wait(end)) take();
   const auto found = whole_.find(number_);
   if (found == whole_.end()) {
+    if (has_expired(error)) return Result::kExpired;
     *error = "the control does not answer";
     return Result::kNobody;
   }
@@ -98,6 +115,7 @@ ServiceCaller::Result ServiceCaller::next_update(std::string* body, std::string*
   const std::int64_t end = now() + kPatienceNs;
   while (updates_.empty() && wait(end)) take();
   if (updates_.empty()) {
+    if (has_expired(error)) return Result::kExpired;
     *error = "no update comes any more";
     return Result::kNobody;
   }
@@ -106,9 +124,10 @@ ServiceCaller::Result ServiceCaller::next_update(std::string* body, std::string*
   return Result::kDone;
 }
 
-// Waits for samples. False when the time is over.
+// Waits for samples. False when the time is over, or the identity has ended.
 bool ServiceCaller::wait(std::int64_t until_ns) {
-  const std::int64_t rest = until_ns - now();
+  std::int64_t rest = until_ns - now();
+  if (!identity_.empty()) rest = std::min(rest, ends_s_ * kSecond - rt::share::wall_ns());
   dds_attach_t triggered[1];
   return rest > 0 && dds_waitset_wait(waitset_, triggered, 1, rest) >= 0;
 }

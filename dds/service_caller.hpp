@@ -20,11 +20,12 @@ struct ServiceReplyText {
 
 class ServiceCaller {
  public:
-  // kNotAllowed: the permissions of DDS Security do not let this identity ask; kNobody: there is no gateway, or it does not answer.
-  enum class Result { kDone, kNotAllowed, kNobody };
+  // kNotAllowed: the permissions of DDS Security do not let this identity ask; kNobody: there is no gateway, or it does not answer;
+  // kExpired: the identity has ended, so nobody hears this client any more.
+  enum class Result { kDone, kNotAllowed, kNobody, kExpired };
 
-  // `control`: name of the control. `client`: that of this client, which no other one has. False with a sentence in *error.
-  bool open(const Access& access, const std::string& control, const std::string& client, std::string* error);
+  // `control`: name of the control. `client`: that of this client, which no other one has. Otherwise *error has a sentence.
+  Result open(const Access& access, const std::string& control, const std::string& client, std::string* error);
   // False when the permissions of DDS Security do not let this identity ask on the topic of the right, with a sentence in *error.
   bool may_ask(rt::services::Right right, std::string* error) { return made_writer(right, error) != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY; }
   // Asks on the topic of the right, with the arguments as JSON, and waits for the reply. Without one *error has a sentence.
@@ -43,9 +44,12 @@ class ServiceCaller {
   void take();
   void add_part(const nc_ServiceReply& sample, dds_instance_handle_t writer);
   bool wait(std::int64_t until_ns);
+  bool has_expired(std::string* error) const;
 
   Access access_;
   std::string control_, client_;
+  std::string identity_;         // whose certificate it is, "" = without DDS Security
+  std::int64_t ends_s_ = 0;      // seconds since 1970, when it ends
   Participant participant_;
   dds_entity_t replies_ = 0, waitset_ = 0;
   std::array<dds_entity_t, rt::services::kRightCount> writers_{};

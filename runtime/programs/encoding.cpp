@@ -75,6 +75,30 @@ std::string valid_utf8(std::string_view text) {
   return out;
 }
 
+std::size_t unseen_length(std::string_view text) {
+  const auto at = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto is_in = [](unsigned value, unsigned first, unsigned last) { return value >= first && value <= last; };
+  if (text.empty()) return 0;
+  if (at(0) < 0x20 || at(0) == 0x7f) return 1;
+  if ((at(0) == 0xC2 && is_in(at(1), 0x80, 0x9F)) || (at(0) == 0xD8 && at(1) == 0x9C)) return 2;
+  if (at(0) != 0xE2) return 0;
+  const unsigned last = at(2);
+  const bool unseen = (at(1) == 0x80 && (is_in(last, 0x8E, 0x8F) || is_in(last, 0xA8, 0xAE))) || (at(1) == 0x81 && is_in(last, 0xA6, 0xA9));
+  return unseen ? 3 : 0;
+}
+
+std::string seen_text(std::string_view text) {
+  const std::string valid = valid_utf8(text);
+  std::string seen;
+  seen.reserve(valid.size());
+  for (std::string_view rest = valid; !rest.empty();) {
+    const std::size_t unseen = unseen_length(rest), length = unseen != 0 ? unseen : utf8_length(rest);
+    seen += unseen != 0 ? " " : rest.substr(0, length);
+    rest.remove_prefix(length);
+  }
+  return seen;
+}
+
 std::string_view cut_utf8(std::string_view text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;

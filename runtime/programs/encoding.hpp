@@ -24,6 +24,11 @@ bool is_ascii(std::string_view text);
 std::size_t utf8_length(std::string_view text);
 // The text, in which each byte that belongs to no character is replaced by U+FFFD.
 std::string valid_utf8(std::string_view text);
+// Bytes of the character at the start of a text when nobody sees it but a terminal acts on it, else 0: control characters (to U+001F, U+007F to U+009F), and those that
+// change lines or the direction in which a text is read (U+061C, U+200E, U+200F, U+2028 to U+202E, U+2066 to U+2069), so that it is shown as another text.
+std::size_t unseen_length(std::string_view text);
+// The text for a terminal and for displays: valid, with a blank for each such character.
+std::string seen_text(std::string_view text);
 // The longest beginning of a valid text that has at most `bytes` bytes and ends with a whole character.
 std::string_view cut_utf8(std::string_view text, std::size_t bytes);
 

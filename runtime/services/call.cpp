@@ -75,24 +75,16 @@ std::string range_text(const FieldInfo& row) {
   return shown(row.least) + " to " + shown(row.most);
 }
 
-// In UTF-8: control characters from U+0080 to U+009F, and those that change the direction in which a text is read (U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069): a name that has one
-// is shown as another name.
 bool has_unseen(std::string_view text) {
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    const auto at = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
-    if (at(0) == 0xC2 && at(1) >= 0x80 && at(1) <= 0x9F) return true;
-    if (at(0) != 0xE2) continue;
-    const unsigned last = at(2);
-    if (at(1) == 0x80 && (last == 0x8E || last == 0x8F || (last >= 0xAA && last <= 0xAE))) return true;
-    if (at(1) == 0x81 && last >= 0xA6 && last <= 0xA9) return true;
-  }
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (unseen_length(text.substr(i)) != 0) return true;
   return false;
 }
 
+// A text of several lines is no name, and is cleaned where it is shown.
 bool is_printable(std::string_view text, bool lines) {
-  for (const char c : text)
-    if (static_cast<unsigned char>(c) < ' ' && !(lines && (c == '\n' || c == '\r' || c == '\t'))) return false;
-  return lines || !has_unseen(text);
+  if (!lines) return !has_unseen(text);
+  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\r' || c == '\t'; });
 }
 
 // Takes one value. "" = it is good, else what is wrong with it.

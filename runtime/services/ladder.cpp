@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/services/forced_devices.hpp"
 #include "runtime/services/named_device.hpp"
 #include "runtime/services/sha256.hpp"
 
@@ -50,6 +51,7 @@ Outcome LadderDesk::list_rungs(const Call& call) {
     flow_time_ = now;
   }
 
+  const ForcedDevices forced(runtime_);
   Json lines = Json::array();
   auto next_named = named.cbegin();
   auto next_value = look.values().cbegin();
@@ -59,7 +61,10 @@ Outcome LadderDesk::list_rungs(const Call& call) {
     for (const std::string& operand : line.operands) {
       Json shown = {{"name", operand}};
       const NamedDevice& of = *next_named++;
-      if (of.device) shown["value"] = of.part_of(*next_value++);
+      if (of.device) {
+        shown["value"] = of.part_of(*next_value++);
+        shown["forced"] = forced.has(of);
+      }
       operands.push_back(std::move(shown));
     }
     Json& shown = lines.emplace_back(Json{{"line", line.line}, {"rung", line.rung}, {"instruction", line.instruction}, {"operands", std::move(operands)}});
@@ -81,19 +86,14 @@ Outcome LadderDesk::list_devices(const Call& call) {
   }
   LadderLook& look = task->look();
   if (!look.take(std::move(sources), 0, kScanPatience)) return no_scan();
-  const ForceList forces = runtime_.snapshot().forces;
+  const ForcedDevices forced(runtime_);
   Json list = Json::array();
   for (std::size_t i = 0; i < names.size(); ++i) {
     const ladder::Device& device = *named[i].device;
-    bool forced = false;
-    for (unsigned f = 0; f < forces.count; ++f) {
-      const auto held = task->find_device(runtime_.forced_name(forces.device[f].number));
-      forced |= held && held->index == device.index && (held->type == ladder::DeviceType::kBit) == (device.type == ladder::DeviceType::kBit);
-    }
     list.push_back({{"name", names[i]},
                     {"type", named[i].type()},
                     {"value", named[i].part_of(look.values()[i])},
-                    {"forced", forced},
+                    {"forced", forced.has(named[i])},
                     {"meaning", device.comment}});
   }
   return Outcome::with({{"scan", look.scan()}, {"devices", std::move(list)}});

@@ -52,14 +52,6 @@ bool answers(const sockaddr_un& address) {
 
 std::int64_t now_ns() { return RealClock().now_ns(); }
 
-// Of a peer, for its place. Who may ask for others is root or the user of ncrtd.
-constexpr unsigned kRankOfOperating = 2, kHighestRank = 3;
-unsigned rank_of(const Session& session) {
-  if (session.may_speak) return kHighestRank;
-  if (session.rights.has(Right::kOperate)) return kRankOfOperating;
-  return session.rights.has(Right::kSetUp) || session.rights.has(Right::kMaintain) ? 1 : 0;
-}
-
 }  // namespace
 
 std::string socket_path(const ServicesConfig& config, const std::string& share) {
@@ -222,11 +214,12 @@ void LocalServer::greet() {
   if (!witness_(client, &peer)) why = "the system does not say who you are";
   session.number = next_session_++;
   session.user = peer.user;
+  session.owner = std::to_string(peer.user);
   session.client = "uid" + std::to_string(peer.user) + "/" + std::to_string(peer.process) + "." + std::to_string(session.number % 1'000'000);
   session.may_speak = peer.user == 0 || peer.user == geteuid();
   if (why.empty()) session.rights = judge_(peer);
   if (why.empty() && session.rights.none()) why = "this user has none of the rights to view, operate, set up and maintain";
-  connection->rank = rank_of(session);
+  connection->rank = rank_of(session.rights, session.may_speak);
   Refused refused = Refused::kNoRight;
   if (why.empty() && !make_room(session, connection->rank)) {
     why = "too many clients";
@@ -462,6 +455,14 @@ void LocalServer::end_session(const std::shared_ptr<Session>& session, Lane lane
   post(lane, std::move(job));
 }
 
+// Users take turns, and so do the clients of a user: who asks for much at once waits for himself. The requests of one client stay in their order.
+std::size_t LocalServer::next_in_turn(Worker* worker) {
+  std::vector<TurnTable::Waiting> waiting;
+  waiting.reserve(worker->jobs.size());
+  for (const Job& job : worker->jobs) waiting.push_back({job.session->owner, job.session->number});
+  return worker->turns.take(waiting);
+}
+
 void LocalServer::work(Worker* worker, Lane lane) {
   if (lane == Lane::kData) services_.find_lost_changes();
   for (;;) {
@@ -479,8 +480,9 @@ void LocalServer::work(Worker* worker, Lane lane) {
         continue;
       }
       if (worker->jobs.empty()) return;  // it stops only when everything was executed, so that uploads are removed
-      job = std::move(worker->jobs.front());
-      worker->jobs.pop_front();
+      const auto next_job = worker->jobs.begin() + static_cast<std::ptrdiff_t>(lane == Lane::kData ? next_in_turn(worker) : 0);
+      job = std::move(*next_job);
+      worker->jobs.erase(next_job);
       if (job.gone) worker->begun.erase(job.session->number);
       else if (!job.denied) worker->begun.insert(job.session->number);
     }

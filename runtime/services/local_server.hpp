@@ -27,6 +27,7 @@
 #include "runtime/rt_thread.hpp"
 #include "runtime/services/frames.hpp"
 #include "runtime/services/services.hpp"
+#include "runtime/services/turn_table.hpp"
 
 namespace nc::rt::services {
 
@@ -125,6 +126,7 @@ class LocalServer {
     std::mutex mutex;
     std::condition_variable wake;
     std::deque<Job> jobs;
+    TurnTable turns;  // of the lane of the data; commands are executed in the order in which they have come
     std::set<std::uint64_t> begun;  // sessions of which something was executed, so that it has to be told when they are gone
     bool stop = false;
   };
@@ -153,6 +155,7 @@ class LocalServer {
   void give_update(Connection* connection, const Answer& update);
   static bool has_room(const Connection& connection);
   bool late(const Connection& connection, std::int64_t now_ns) const;
+  static std::size_t next_in_turn(Worker* worker);
   void work(Worker* worker, Lane lane);
   void execute(const Job& job, Lane lane);
   void execute_command(const Job& job);

@@ -59,14 +59,15 @@ void forget_lost_undo(const Change& undo, Change* undone, const std::map<std::st
 void mark_lost(std::deque<Change>* changes, const ValueOf& value_of) {
   std::map<std::string, History> histories;
   for (Change& change : *changes)
-    for (ValueChange& value : change.values) histories[place_key(value.place)].push_back(&value);
+    for (ValueChange& value : change.values)
+      if (!value.apart) histories[place_key(value.place)].push_back(&value);
   for (const auto& [key, history] : histories) {
     std::string now;
     if (value_of(history.back()->place, &now)) mark_history(history, std::move(now));
   }
   for (const Change& undo : *changes)
     for (Change& change : *changes)
-      if (undo.undoes == change.number && change.undone_by == undo.number) forget_lost_undo(undo, &change, histories);
+      if (undo.undoes != 0 && undo.undoes == change.number && change.undone_by == undo.number) forget_lost_undo(undo, &change, histories);
 }
 
 }  // namespace nc::rt::services

@@ -76,4 +76,10 @@ RightSet rights_of(const Credentials& peer, const RightGroups& groups, uid_t own
   return rights;
 }
 
+unsigned rank_of(const RightSet& rights, bool may_speak) {
+  if (may_speak) return kHighestRank;
+  if (rights.has(Right::kOperate)) return kRankOfOperating;
+  return rights.has(Right::kSetUp) || rights.has(Right::kMaintain) ? 1 : 0;
+}
+
 }  // namespace nc::rt::services

@@ -64,4 +64,8 @@ RightGroups find_groups(const ServicesConfig& config, std::vector<std::string>* 
 // `owner`: the user of ncrtd.
 RightSet rights_of(const Credentials& peer, const RightGroups& groups, uid_t owner);
 
+// Of a client, where there is not room for all: who may do more is above, and root and the user of ncrtd, who may ask for others, above all.
+inline constexpr unsigned kRankOfOperating = 2, kHighestRank = 3;
+unsigned rank_of(const RightSet& rights, bool may_speak);
+
 }  // namespace nc::rt::services

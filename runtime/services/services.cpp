@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "runtime/programs/called_number.hpp"
+#include "runtime/services/last_changes.hpp"
 #include "runtime/services/restart.hpp"
 #include "runtime/services/shown.hpp"
 #include "runtime/services/table_changes.hpp"
@@ -95,8 +96,16 @@ Services::Services(Runtime* runtime, const share::ProgramTable* programs, share:
 
 void Services::open(std::string* warning) {
   store_.clean();
-  std::string error;
-  if (!log_.open(&error)) *warning = "changes through the services are not written down: " + error;
+  std::string error, damage;
+  if (!log_.open(&error, &damage)) *warning = "changes through the services are not written down: " + error;
+  if (damage.empty()) return;
+  *warning += (warning->empty() ? "" : "; ") + damage;
+  if (history_ == nullptr) return;
+  history::Entry entry;
+  entry.time_ns = entry.end_ns = share::wall_ns();
+  entry.code = "damaged";
+  entry.text = damage;
+  history_->add(std::move(entry));
 }
 
 std::string Services::lack(const Session& session, const Call& call) {
@@ -120,6 +129,7 @@ Outcome Services::limit(const Session& session, const Call& call, Session* after
   after->client = session.client;
   after->user = session.user;
   after->behalf = session.behalf;
+  after->owner = session.owner;
   after->sequence = session.sequence;
   after->rights = session.rights.both(kept);
   after->may_speak = session.may_speak && session.behalf.empty();
@@ -129,6 +139,7 @@ Outcome Services::limit(const Session& session, const Call& call, Session* after
   if (!ascii || behalf.find(':') == std::string::npos) return Outcome::refused(Refused::kMalformed, "behalf must be printable ASCII with a colon, such as dds:screen-1");
   if (!session.may_speak || session.sequence != 0) return Outcome::refused(Refused::kNoRight, "only root and the user of ncrtd ask for others, for one of them, and before the first command");
   after->client = after->behalf = behalf;
+  after->owner = user_of_behalf(behalf);
   after->may_speak = false;
   return Outcome::with(rights_json(*after));
 }
@@ -289,6 +300,12 @@ Outcome Services::list_changes(const Call& call) {
   return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500)), of));
 }
 
+Outcome Services::with_last_changes(Outcome outcome, const Call& call) const {
+  unsigned system = 0;
+  if (outcome.ok && system_of(runtime_, call, &system)) add_last_changes(log_, call.row->service, system, &outcome.reply);
+  return outcome;
+}
+
 Outcome Services::data(const Session& session, const Call& call) {
   if (const std::string lacks = lack(session, call); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
   switch (call.row->service) {
@@ -296,11 +313,11 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kHistory: return list_history(history_, call);
     case Service::kCounters: return list_counters(history_);
     case Service::kProgramTimes: return list_program_times(history_, call);
-    case Service::kTools: return list_tools(&runtime_, call);
-    case Service::kLives: return list_lives(&runtime_, call);
-    case Service::kOffsets: return list_offsets(&runtime_, call);
-    case Service::kVariables: return list_variables(&runtime_, call);
-    case Service::kParameters: return list_parameters(&runtime_, call);
+    case Service::kTools: return with_last_changes(list_tools(&runtime_, call), call);
+    case Service::kLives: return with_last_changes(list_lives(&runtime_, call), call);
+    case Service::kOffsets: return with_last_changes(list_offsets(&runtime_, call), call);
+    case Service::kVariables: return with_last_changes(list_variables(&runtime_, call), call);
+    case Service::kParameters: return with_last_changes(list_parameters(&runtime_, call), call);
     case Service::kParameterExport: return export_parameters(&runtime_);
     case Service::kExport: return export_tables(&runtime_, call);
     case Service::kTraceSignals: return trace_.list_signals(call);
@@ -308,7 +325,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kTraceRead: return trace_.read(call);
     case Service::kLadderRungs: return ladder_.list_rungs(call);
     case Service::kLadderDevices: return ladder_.list_devices(call);
-    case Service::kWatchBegin: return watch_.begin(session.number, call, RealClock().now_ns());
+    case Service::kWatchBegin: return watch_.begin({session.number, session.owner, rank_of(session.rights, session.may_speak)}, call, RealClock().now_ns());
     case Service::kWatchEnd: return watch_.end(session.number, call);
     case Service::kRestartStatus: return show_restart(&runtime_, call);
     case Service::kTraceArm: return trace_.arm(call, actor(session), session.client);

@@ -28,6 +28,7 @@ struct Session {
   std::string client;        // name in the intake: printable ASCII, at most 31 characters
   uid_t user = 0;
   std::string behalf;        // for whom it asks; empty = for its user
+  std::string owner;         // whose requests take turns with those of others: its user, or for whom it asks
   bool may_speak = false;    // it may ask for others
   RightSet rights;
   std::atomic<bool> open{true};
@@ -85,6 +86,7 @@ class Services {
   Outcome renamed(const Call& call);
   Outcome removed(const Call& call);
   Outcome list_changes(const Call& call);
+  Outcome with_last_changes(Outcome outcome, const Call& call) const;
   void warn_of_selected(const std::string& name, Outcome* outcome) const;
   Outcome list_programs(const Call& call) const;
   Outcome program(const Session& session, const Call& call);

@@ -345,18 +345,24 @@ void find_lost(Runtime* runtime, ChangeLog* log) {
 Outcome take_back(Runtime* runtime, const Change& before, Change* change) {
   std::vector<TableValue> wanted;
   std::vector<std::string> expected;
+  std::string kept;  // what stays as it is
   for (auto value = before.values.rbegin(); value != before.values.rend(); ++value) {
     if (value->lost) continue;
-    // The control has no way to take the setting of a parameter away.
-    if (value->place.table == Table::kParameter && value->before.empty())
-      return Outcome::refused(Refused::kState, place_text(value->place) + " was not set before, and what is set stays set: give it the value that is wanted");
+    // The control has no way to take the setting of a parameter away. It is said, and keeps nobody from taking back the others and what was changed before.
+    if (value->place.table == Table::kParameter && value->before.empty()) {
+      kept += (kept.empty() ? "" : ", ") + place_text(value->place);
+      continue;
+    }
     wanted.push_back({value->place, value->before});
     expected.push_back(value->after);
   }
   std::vector<ValueChange> done;
   Outcome outcome = change_values(runtime, std::move(wanted), std::move(expected), &done);
   if (!outcome.ok) return outcome;
+  const bool some = !done.empty();
   describe(std::move(done), change);
+  if (!some) change->what.clear();
+  if (!kept.empty()) change->what += (some ? "; " : "") + kept + " was not set before, and what is set stays set: give it the value that is wanted";
   change->what = "undo of " + std::to_string(before.number) + ": " + change->what;
   change->undoes = before.number;
   return Outcome::done(change->what);

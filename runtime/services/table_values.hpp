@@ -46,6 +46,7 @@ struct ValueChange {
   TablePlace place;
   std::string before, after;
   bool lost = false;  // a power cut has taken it: the table was not kept in time (lost_changes.hpp)
+  bool apart = false;  // a change between this one and the next that is remembered is not: what they found says nothing of this one
 };
 
 // The place in the file of the changes, and back. The texts never change: "tool 3 radius_wear", "offset 1 102 X", "variable 1 501", "name 501", "life 3 used", "parameter 1 X 2001"

@@ -16,7 +16,7 @@ constexpr std::size_t kShown = 127;
 
 std::string shown(std::string text) {
   while (!text.empty() && (text.back() == '\r' || text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  return std::string(cut_utf8(valid_utf8(text), kShown));
+  return std::string(cut_utf8(seen_text(text), kShown));
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ class ProgramTable {
     std::string path;
     std::uint64_t lines = 0;          // up to its end code, 0 = not known
     std::weak_ptr<ProgramText> text;  // empty once the store has dropped the program
+    bool dropped = false;             // the store has given its place up: what has it now is no file of this name
   };
 
   // Also counts the lines, which takes time.
@@ -30,7 +31,13 @@ class ProgramTable {
   void add_name(unsigned file, const std::string& path, const Text& text) {
     const std::lock_guard lock(mutex_);
     Program& program = programs_[file];
-    if (program.path != path || program.text.lock() != text) program = {path, 0, text};
+    if (program.path != path || program.dropped || program.text.lock() != text) program = {path, 0, text};
+  }
+  // The store has dropped the program. Its name stays for those who show what has been.
+  void drop(unsigned file) {
+    const std::lock_guard lock(mutex_);
+    const auto found = programs_.find(file);
+    if (found != programs_.end()) found->second.dropped = true;
   }
   Program at(unsigned file) const {
     const std::lock_guard lock(mutex_);

@@ -184,7 +184,7 @@ void Publisher::fill_block(unsigned index, const nc_outputs& nc, const FeederInf
     program = file_name(programs_.at(selected.file).path);
     if (nc.source.line != 0) {
       const ProgramTable::Program running = programs_.at(nc.source.file);
-      const bool mdi = running.path.empty() && nc.source.depth != 0;  // blocks of MDI that interrupt the program are no file
+      const bool mdi = (running.path.empty() || running.dropped) && nc.source.depth != 0;  // blocks of MDI that interrupt the program are no file
       file = mdi ? "MDI" : file_name(running.path);
       block = mdi ? line_of_text(programs_.mdi(index), nc.source.line) : text_[index].line(running.text.lock(), nc.source.line);
     }

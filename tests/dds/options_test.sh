@@ -35,4 +35,8 @@ for program in ncdds ncmon; do
   [ "$("$bin/$program" --version)" = "$program $version" ] || { echo "FAILED: $program --version"; failures=$((failures + 1)); }
 done
 refuses "" "$bin/ncmon" --once --progress
+# A name to which no gateway answers is wrong usage at once, and nothing to wait for.
+[ ! -x "$bin/ncctl" ] || for name in 'anna@../x' 'anna@*' $'anna@\001' abcdefghijklmnopqrstuvwxyz01; do
+  refuses "the name of a client has letters, digits" "$bin/ncctl" --domain 77 --control none --client "$name" rights
+done
 exit $((failures != 0))

@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "runtime/programs/encoding.hpp"
 #include "runtime/services/frames.hpp"
 
 namespace nc::rt::services {
@@ -168,6 +169,15 @@ TEST(ServiceCall, RefusalsHaveNamesOfTheirOwn) {
   for (unsigned i = 0; i < static_cast<unsigned>(Refused::kCount); ++i) names.insert(refused_name(static_cast<Refused>(i)));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(Refused::kCount));
   EXPECT_EQ(names.count("?"), 0u);
+}
+
+// What a terminal obeys is a blank in what is shown, whole characters beside it stay.
+TEST(ServiceCall, ATextForATerminalHasNothingThatItObeys) {
+  EXPECT_EQ(seen_text("a\x1b[31m\x7f\t\n"), "a [31m   ");
+  EXPECT_EQ(seen_text("\xc2\x9b" "31m \xc2\x80\xc2\x9f\xc2\xa0"), " 31m   \xc2\xa0");
+  EXPECT_EQ(seen_text("\xe2\x80\xae" "cn.\xe2\x81\xa6\xe2\x80\x8f\xd8\x9c\xe2\x80\xa8"), " cn.    ");
+  EXPECT_EQ(seen_text("\xe2\x80\xa2 \xe2\x80\xaf \xd8\x9d \xe5\x88\x87\xe5\x89\x8a \xc3\x9b"), "\xe2\x80\xa2 \xe2\x80\xaf \xd8\x9d \xe5\x88\x87\xe5\x89\x8a \xc3\x9b");
+  EXPECT_EQ(seen_text("\x9b" "31m"), "\xef\xbf\xbd" "31m") << "no character";
 }
 
 }  // namespace

@@ -129,7 +129,8 @@ TEST(ChangeLogFile, WhatComesWaitsForAFileThatCannotBeTurned) {
   ASSERT_NE(mkdtemp(pattern), nullptr);
   const std::string path = std::string(pattern) + "/changes";
   std::string error;
-  std::ofstream(path) << std::string(static_cast<std::size_t>(ChangeLog::kMostBytes), 'x') << "\n";
+  const std::string begin = "{\"after\":\"";  // what a power cut leaves of a line
+  std::ofstream(path) << begin << std::string(static_cast<std::size_t>(ChangeLog::kMostBytes) - begin.size(), 'x') << "\n";
   std::filesystem::create_directories(path + ".1/in-the-way");
   ChangeLog log(path);
   EXPECT_FALSE(log.open(&error));
@@ -141,6 +142,76 @@ TEST(ChangeLogFile, WhatComesWaitsForAFileThatCannotBeTurned) {
   ASSERT_TRUE(again.open(&error));
   EXPECT_EQ(again.newest(0, 9)["changes"].size(), 2u);
   std::filesystem::remove_all(pattern);
+}
+
+// One user changes one row, another one a row of his own again and again.
+Change value_change(const std::string& user, const std::string& place, int value, std::size_t length = 0) {
+  Change made = change(place + std::string(length, '.'));
+  made.user = user;
+  ValueChange& one = made.values.emplace_back();
+  EXPECT_TRUE(parse_place(place, &one.place));
+  one.before = std::to_string(value - 1);
+  one.after = std::to_string(value);
+  return made;
+}
+
+// Whoever changes much wipes neither who has changed a row last, nor what others may take back; also not behind starts, when the file has been turned several times.
+TEST(ChangeLogFile, TheLastChangeOfARowIsKept) {
+  char pattern[] = "/tmp/nc-changes-XXXXXX";
+  ASSERT_NE(mkdtemp(pattern), nullptr);
+  const std::string path = std::string(pattern) + "/changes";
+  TablePlace tool;
+  ASSERT_TRUE(parse_place("tool 33 length", &tool));
+  const auto look = [&](const ChangeLog& log, unsigned round) {
+    const Json of_tool = log.newest(0, 5, "tool 33")["changes"];
+    ASSERT_EQ(of_tool.size(), 1u) << round;
+    EXPECT_EQ(of_tool[0]["user"], "anna");
+    const Change* last = log.last_of("anna", Right::kSetUp);
+    ASSERT_NE(last, nullptr) << round;
+    EXPECT_EQ(last->number, 1u);
+    ASSERT_NE(log.last_change_of(tool), nullptr);
+    EXPECT_EQ(log.last_change_of(tool)->after, "7");
+    EXPECT_EQ(log.last_of("ben", Right::kSetUp)->values[0].after, std::to_string((round + 1) * 1300));
+    EXPECT_LT(log.newest(0, 100'000)["changes"].size(), ChangeLog::kRemembered + 600);
+  };
+  std::string error;
+  for (unsigned round = 0; round < 3; ++round) {
+    ChangeLog log(path);
+    ASSERT_TRUE(log.open(&error)) << error;
+    if (round == 0) ASSERT_TRUE(log.add(value_change("anna", "tool 33 length", 7), &error)) << error;
+    for (int n = 1; n <= 1300; ++n) ASSERT_TRUE(log.add(value_change("ben", "variable 1 505", static_cast<int>(round) * 1300 + n, 3500), &error)) << error;
+    look(log, round);
+    ChangeLog again(path);
+    ASSERT_TRUE(again.open(&error)) << error;
+    look(again, round);
+    again.compare([](const TablePlace&, std::string* value) {
+      *value = "another one";
+      return true;
+    });
+    EXPECT_FALSE(is_lost(*again.last_of("anna", Right::kSetUp)));
+  }
+  EXPECT_TRUE(std::filesystem::exists(path + ".1"));
+  std::filesystem::remove_all(pattern);
+}
+
+// Tables that are imported again and again cost him their undo who does that.
+TEST(ChangeLogFile, ManyValuesCostTheirOwnUser) {
+  ChangeLog log("");
+  std::string error;
+  ASSERT_TRUE(log.add(value_change("anna", "tool 33 length", 7), &error));
+  for (int n = 0; n < 12; ++n) {
+    Change import = change("import");
+    import.user = "ben";
+    for (unsigned v = 1; v <= 9'000; ++v) {
+      ValueChange& value = import.values.emplace_back();
+      value.place.table = TablePlace::Table::kVariable;
+      value.place.number = v;
+    }
+    ASSERT_TRUE(log.add(std::move(import), &error));
+  }
+  ASSERT_NE(log.last_of("anna", Right::kSetUp), nullptr);
+  EXPECT_EQ(log.last_of("ben", Right::kSetUp)->number, 13u);
+  EXPECT_TRUE(log.find(2)->values.empty()) << "the oldest of him who has the most";
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST_F(LadderServices, ShowsRungsWithTheirPower) {
   EXPECT_EQ(line(reply, 2)["rung"], 2);
   EXPECT_EQ(line(reply, 4)["rung"], 2);
   EXPECT_EQ(line(reply, 2)["power"], true);
-  EXPECT_EQ(line(reply, 2)["operands"], (Json::array({{{"name", "SM400"}, {"value", 1}}})));
+  EXPECT_EQ(line(reply, 2)["operands"], (Json::array({{{"name", "SM400"}, {"value", 1}, {"forced", false}}})));
   EXPECT_EQ(line(reply, 6)["rung"], 6);
   EXPECT_FALSE(line(reply, 15).contains("power")) << "END";
 }
@@ -128,6 +128,51 @@ TEST_F(LadderServices, MarksWhatIsForced) {
   const Json status = until(&client, "ladder.devices", [](const Json& now) { return now["devices"][0]["forced"] == true; }, {{"devices", {"D2", "D3"}}});
   EXPECT_EQ(status["devices"][0]["value"], 7);
   EXPECT_EQ(status["devices"][1]["forced"], false);
+  const Json rungs = client.call("ladder.rungs")["reply"];
+  EXPECT_EQ(line(rungs, 7)["operands"][0], (Json{{"name", "D2"}, {"value", 7}, {"forced", true}}));
+  EXPECT_EQ(line(rungs, 9)["operands"][0]["forced"], false);
+  ASSERT_EQ(client.outcome("watch.begin", {{"devices", {"D3", "D2", "D2.0"}}, {"interval_ms", 20}}), "");
+  EXPECT_EQ(client.receive()["forced"], (Json{1, 2})) << "their places";
+  ASSERT_TRUE(client.ask(99, "release"));
+  for (Json message = client.receive(); message.contains("forced") || message.contains("id"); message = client.receive()) continue;
+}
+
+// Users who only view keep watch lists from nobody who may do more, nor one of them from others.
+TEST_F(LadderServices, NobodyTakesAllDevicesOfWatchLists) {
+  std::vector<std::unique_ptr<ServiceClient>> held;
+  const auto as = [&](uid_t user, std::initializer_list<Right> rights) {
+    give(rights);
+    {
+      const std::lock_guard lock(mutex_);
+      user_ = user;
+    }
+    held.push_back(std::make_unique<ServiceClient>(path_));
+    return held.back().get();
+  };
+  unsigned first = 0;
+  const auto watch = [&](ServiceClient* client, unsigned count) {
+    std::vector<std::string> names;
+    for (unsigned n = 0; n < count; ++n) names.push_back("D" + std::to_string(first + n));
+    if (!client->ask(1, "watch.begin", {{"devices", names}, {"interval_ms", 60000}})) return false;
+    Json reply;
+    do reply = client->receive();
+    while (reply.contains("watch"));
+    if (reply["ok"] == true) first += count;
+    else EXPECT_EQ(reply["error"], "busy");
+    return reply["ok"] == true;
+  };
+  const auto take_all = [&](ServiceClient* client) {
+    unsigned count = 0;
+    while (count < 8 && watch(client, 64)) ++count;
+    return 64 * count;
+  };
+  EXPECT_EQ(take_all(as(70001, {Right::kView})), WatchDesk::kOfUser);
+  EXPECT_EQ(take_all(as(70001, {Right::kView})), 0u) << "another connection of the same user";
+  EXPECT_EQ(take_all(as(70002, {Right::kView})), 64u);
+  EXPECT_EQ(take_all(as(70003, {Right::kView})), 0u);
+  EXPECT_EQ(take_all(as(70004, {Right::kView, Right::kSetUp})), 64u);
+  EXPECT_EQ(take_all(as(70005, {Right::kView, Right::kOperate})), 64u);
+  EXPECT_EQ(take_all(as(0, {Right::kView})), 64u) << "root";
 }
 
 TEST_F(LadderServices, WritesOnce) {

@@ -114,8 +114,10 @@ TEST_F(Undo, EachRightTakesBackWhatItMayChange) {
   EXPECT_EQ(keeper.outcome("parameters.undo"), "");
   EXPECT_EQ(keeper.call("parameters.list")["reply"]["parameters"][0]["value"], "1");
   const Json reply = keeper.call("parameters.undo");
-  EXPECT_EQ(reply["error"], "refused") << "what is set stays set";
-  EXPECT_NE(reply["text"].get<std::string>().find("was not set before"), std::string::npos) << reply;
+  EXPECT_EQ(reply["ok"], true) << "what is set stays set, and it is said";
+  EXPECT_NE(reply["reply"]["text"].get<std::string>().find("was not set before"), std::string::npos) << reply;
+  EXPECT_EQ(keeper.call("parameters.list")["reply"]["parameters"][0]["value"], "1");
+  EXPECT_EQ(keeper.outcome("parameters.undo"), "not found") << "nothing stands in the way of what was changed before it";
 }
 
 TEST_F(Undo, IsPossibleBehindARestart) {

@@ -47,7 +47,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 // False when it cannot be written, which may be what there is to be said.
 bool print_object(const ServiceRefusal& refusal, std::FILE* out) {
   const Json object{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}};
-  return std::ferror(out) == 0 && std::fprintf(out, "%s\n", object.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()) >= 0 && std::fflush(out) == 0;
+  return std::ferror(out) == 0 && std::fprintf(out, "%s\n", json_text(object).c_str()) >= 0 && std::fflush(out) == 0;
 }
 
 // What is wrong in several lines of a file has as many lines.
@@ -59,6 +59,12 @@ void print_lines(const std::string& text, std::FILE* err) {
   }
 }
 
+// Whether all texts of the arguments are characters: others would ask for something else.
+bool is_utf8(const Json& value) {
+  if (value.is_string()) return rt::valid_utf8(value.get_ref<const std::string&>()) == value.get_ref<const std::string&>();
+  return std::all_of(value.begin(), value.end(), [](const Json& member) { return !member.is_structured() && !member.is_string() ? true : is_utf8(member); });
+}
+
 class Command {
  public:
   Command(const ControlCommand& command, OpenRemote open_remote, std::FILE* in, std::FILE* out, std::FILE* err)
@@ -67,6 +73,7 @@ class Command {
   int run() {
     using What = ControlCommand::What;
     if (command_.what == What::kDocument) return document();
+    if (!is_utf8(command_.args)) return failed(kControlUsage, "the words of a command must be UTF-8");
     rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP});
     if (!connect()) return status_;
     switch (command_.what) {
@@ -196,7 +203,12 @@ class Command {
       } else {
         if (const std::uint64_t missing = update.value("left_out", std::uint64_t{0}); missing != 0) std::fprintf(out_, "# %llu left out\n", static_cast<unsigned long long>(missing));
         std::string line = update.value("scan", Json()).dump();
-        for (const Json& value : update.value("values", Json::array())) line += value.is_number() ? "\t" + value.dump() : "\t-";
+        std::size_t place = 0;
+        const Json held = update.value("forced", Json::array());
+        for (const Json& value : update.value("values", Json::array())) {
+          line += value.is_number() ? "\t" + value.dump() : "\t-";
+          if (std::find(held.begin(), held.end(), Json(place++)) != held.end()) line += kForcedMark;
+        }
         std::fprintf(out_, "%s\n", line.c_str());
       }
       if (std::fflush(out_) != 0) return failed(kControlFailed, "the output cannot be written");
@@ -352,7 +364,7 @@ class Command {
     if (std::fwrite(text.data(), 1, text.size(), to_) == text.size() && std::fflush(to_) == 0) return true;
     return failed(kControlFailed, std::string("the output cannot be written: ") + std::strerror(errno)) == 0;
   }
-  static std::string json_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+  static std::string json_line(const Json& json) { return json_text(json) + "\n"; }
 
   int export_tables() {
     Json reply;
@@ -440,7 +452,7 @@ class Command {
     std::string line;
     for (int c = std::fgetc(in_); rt::end_signal() == 0; c = std::fgetc(in_)) {
       if (c != '\n' && c != EOF) {
-        line += static_cast<char>(c);
+        if (line.size() <= rt::services::kMostFrameBytes) line += static_cast<char>(c);  // one more says that it is too long
         continue;
       }
       if (line.find_first_not_of(" \t\r") != std::string::npos) {
@@ -462,6 +474,7 @@ class Command {
       return false;
     };
     std::string why;
+    if (line.size() > rt::services::kMostFrameBytes) return bad("a line has at most " + std::to_string(rt::services::kMostFrameBytes) + " bytes");
     if (!rt::services::read_json(line, request, &why)) return bad("the request " + why);
     if (!request->is_object()) return bad("the request is no object");
     for (const auto& [key, value] : request->items())

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/programs/encoding.hpp"
+
 namespace nc::tools {
 namespace {
 
@@ -43,7 +45,7 @@ std::string value_text(std::string_view key, const Json& value) {
     for (const Json& element : value) {
       const bool pair = element.is_object() && element.contains("name") && element.contains("value");
       const bool single = element.is_object() && element.contains("name") && element.size() == 1;
-      text += (text.empty() ? "" : " ") + (pair ? value_text("", element["name"]) + " " + value_text("", element["value"]) : value_text("", single ? element["name"] : element));
+      text += (text.empty() ? "" : " ") + (pair ? value_text("", element["name"]) + " " + value_text("", element["value"]) + (element.value("forced", false) ? kForcedMark : "") : value_text("", single ? element["name"] : element));
     }
   if (value.is_object())
     for (const auto& [name, member] : value.items()) text += (text.empty() ? "" : " ") + name + "=" + value_text(name, member);
@@ -181,9 +183,22 @@ std::string history_text(const Json& reply) {
 
 }  // namespace
 
-std::string terminal_text(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+std::string terminal_text(const std::string& text) { return rt::seen_text(text); }
+
+std::string json_text(const Json& json) {
+  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text;
+  for (std::string_view rest = plain; !rest.empty();) {
+    const std::size_t unseen = rt::unseen_length(rest);
+    if (unseen == 0) {
+      text += rest[0];
+      rest.remove_prefix(1);
+      continue;
+    }
+    text += Json(std::string(rest.substr(0, unseen))).dump(-1, ' ', true).substr(1);  // as \u009b
+    text.pop_back();
+    rest.remove_prefix(unseen);
+  }
   return text;
 }
 

@@ -14,7 +14,13 @@ namespace nc::tools {
 std::string reply_text(const rt::services::ServiceRow& row, const nlohmann::json& reply);
 
 /** The text with its control characters replaced: a terminal must not obey what stands in a program, in the name of a file or in a sentence about one. */
-std::string terminal_text(std::string text);
+std::string terminal_text(const std::string& text);
+
+/** Behind the value of a device that is forced. */
+inline constexpr char kForcedMark[] = " forced";
+
+/** The reply as JSON in one line, in which what a terminal would obey is written as \u009b. */
+std::string json_text(const nlohmann::json& json);
 
 /** A status in one line, for ncctl watch. */
 std::string status_line(const nlohmann::json& status);

@@ -42,7 +42,8 @@ DaemonSharing::DaemonSharing(const DaemonOptions& options, const rt::Config& con
 bool DaemonSharing::prepare(rt::Runtime* runtime, ProgramFiles* files, const std::string& folder, std::string* error) {
   if (!wanted_) return true;
   files_ = files;
-  runtime->set_sink(this);
+  // A called program has its name before its first block is executed, and one that is gone gives it to no blocks of MDI that get its place.
+  files->set_watch([this](unsigned file, const std::string& path, const ProgramFiles::Text& text) { programs_.add_name(file, path, text); }, [this](unsigned file) { programs_.drop(file); });
   runtime->set_program_loader([this, runtime, folder](const std::string& name, unsigned* file, std::string* why) {
     const std::string path = path_of_program(folder, name);
     if (files_->add(runtime->control(), path, file, why) != NC_OK) {
@@ -126,15 +127,6 @@ void DaemonSharing::stop() {
 
 void DaemonSharing::stop_history() {
   if (history_ != nullptr) history_->stop();
-}
-
-void DaemonSharing::executed(unsigned, const nc_event& event) {
-  // An entry of the store may have got another program since the last time; entered() counts that.
-  if (event.source.file == last_file_ && files_->entered() == last_entered_) return;
-  last_file_ = event.source.file;
-  last_entered_ = files_->entered();
-  const std::string path = files_->path_of(event.source.file);
-  if (!path.empty()) programs_.add_name(event.source.file, path, files_->text_of(event.source.file));
 }
 
 }  // namespace nc::tools

@@ -14,8 +14,7 @@
 
 namespace nc::tools {
 
-/** Must outlive the runtime, which reports to it. */
-class DaemonSharing final : public rt::EventSink {
+class DaemonSharing {
  public:
   DaemonSharing(const DaemonOptions& options, const rt::Config& config, hal::Hal* machine);
 
@@ -30,9 +29,6 @@ class DaemonSharing final : public rt::EventSink {
   void stop_history();
   rt::share::ProgramTable& programs() { return programs_; }
 
-  /** Called in the feeder thread, to which the files belong: a sub program gets its name when its first block has been executed. */
-  void executed(unsigned system, const nc_event& event) override;
-
  private:
   void open_history(rt::Runtime* runtime);
   bool open_services(rt::Runtime* runtime, std::string* error);
@@ -43,8 +39,6 @@ class DaemonSharing final : public rt::EventSink {
   rt::share::ServiceOptions share_;
   rt::share::ProgramTable programs_;
   ProgramFiles* files_ = nullptr;
-  unsigned last_file_ = ~0u;
-  std::uint64_t last_entered_ = 0;
   std::unique_ptr<rt::share::Service> service_;
   std::unique_ptr<rt::history::Recorder> history_;
   std::unique_ptr<rt::services::ProgramChecks> checks_;

@@ -158,6 +158,7 @@ nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::st
   if (file) *file = made->index;
   entries_.push_back(std::move(made));
   ++entered_;
+  if (told_entered_) told_entered_(entries_.back()->index, shown, entries_.back()->text);
   return NC_OK;
 }
 
@@ -181,7 +182,9 @@ void ProgramFiles::forget(unsigned file) {
 // Protected ones as well: a parameter protects a program from those who operate the control, and what runs is always what the file has.
 void ProgramFiles::give_up_unused(nc_control* control) {
   std::erase_if(entries_, [&](const std::unique_ptr<Entry>& entry) {
-    return !(remembered_ && remembered_(entry->index)) && nc_program_give_up(control, entry->index) == NC_OK;
+    if ((remembered_ && remembered_(entry->index)) || nc_program_give_up(control, entry->index) != NC_OK) return false;
+    if (told_dropped_) told_dropped_(entry->index);
+    return true;
   });
 }
 
@@ -197,7 +200,9 @@ bool ProgramFiles::make_room(nc_control* control) {
     used = info.used;
   }
   if (!oldest || nc_program_give_up(control, oldest->index) != NC_OK) return false;
-  forget(oldest->index);
+  const unsigned file = oldest->index;
+  forget(file);
+  if (told_dropped_) told_dropped_(file);
   return true;
 }
 

@@ -33,6 +33,11 @@ class ProgramFiles {
   void set_remembered(std::function<bool(unsigned file)> remembered) { remembered_ = std::move(remembered); }
   /** Sets a function that is told why an existing sub program could not be read; there is no caller to whom that could be returned. */
   void set_report(std::function<void(const std::string&)> report) { report_ = std::move(report); }
+  /** Sets functions for those who show programs: a text has got this index in the program store, before a block of it can be read; the store has dropped it. */
+  void set_watch(std::function<void(unsigned file, const std::string& path, const Text& text)> entered, std::function<void(unsigned file)> dropped) {
+    told_entered_ = std::move(entered);
+    told_dropped_ = std::move(dropped);
+  }
   /** Sets a function that is asked before each read of a text: when it is true, nothing more can be read. For who must not look at a text without an end. */
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
   ~ProgramFiles();
@@ -94,6 +99,8 @@ class ProgramFiles {
   std::function<bool(unsigned)> remembered_;
   std::function<void(const std::string&)> report_;
   std::function<bool()> stop_;
+  std::function<void(unsigned, const std::string&, const Text&)> told_entered_;
+  std::function<void(unsigned)> told_dropped_;
   std::vector<std::unique_ptr<Entry>> entries_;
   uint64_t entered_ = 0;
 };

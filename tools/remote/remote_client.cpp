@@ -6,6 +6,7 @@
 
 #include "dds/security.hpp"
 #include "dds/service_caller.hpp"
+#include "dds/service_request.hpp"
 #include "runtime/services/service_table.hpp"
 
 namespace nc::tools {
@@ -18,9 +19,11 @@ class RemoteClient : public ServiceClient {
   bool open(const dds::Access& access, const std::string& control, const std::string& name, ServiceRefusal* refusal) {
     std::string error;
     secured_ = !access.security.empty();
-    if (caller_.open(access, control, name, &error)) return true;
-    *refusal = {kControlFailed, "failed", error};
-    return false;
+    const auto opened = caller_.open(access, control, name, &error);
+    if (opened == ServiceCaller::Result::kNotAllowed)
+      *refusal = refusal_named("no right", "the permissions of this identity do not have control \"" + control + "\", or no client of the name \"" + name + "\"");
+    else if (opened != ServiceCaller::Result::kDone) *refusal = {kControlFailed, "failed", error};
+    return opened == ServiceCaller::Result::kDone;
   }
   bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) override {
     const rt::services::ServiceRow* row = rt::services::find_service(service);
@@ -33,15 +36,16 @@ class RemoteClient : public ServiceClient {
     if (result == ServiceCaller::Result::kNotAllowed && row != nullptr && row->or_right) result = caller_.call(*row->or_right, service, words, &text, &error);
     if (result == ServiceCaller::Result::kNotAllowed)
       *refusal = refusal_named("no right", "the permissions of this identity do not have the right to " + (row != nullptr ? rt::services::rights_text(*row) : right_name(right)));
-    else if (result == ServiceCaller::Result::kNobody) *refusal = no_connection(error);
+    else if (result != ServiceCaller::Result::kDone) *refusal = no_answer(result, error);
     else return read(text, reply, refusal);
     return false;
   }
   bool next_update(Json* update, ServiceRefusal* refusal) override {
     dds::ServiceReplyText text;
     std::string error;
-    if (caller_.next_update(&text.body, &error) == ServiceCaller::Result::kDone) return read(text, update, refusal);
-    *refusal = no_connection(error);
+    const auto result = caller_.next_update(&text.body, &error);
+    if (result == ServiceCaller::Result::kDone) return read(text, update, refusal);
+    *refusal = no_answer(result, error);
     return false;
   }
   bool may_use(const rt::services::ServiceRow& row) override {
@@ -50,6 +54,9 @@ class RemoteClient : public ServiceClient {
   }
 
  private:
+  static ServiceRefusal no_answer(ServiceCaller::Result result, const std::string& error) {
+    return result == ServiceCaller::Result::kExpired ? ServiceRefusal{kControlFailed, "failed", error} : no_connection(error);
+  }
   static bool read(const dds::ServiceReplyText& text, Json* reply, ServiceRefusal* refusal) {
     Json body = Json::parse(text.body, nullptr, false);
     if (!body.is_object()) {
@@ -101,6 +108,7 @@ std::unique_ptr<ServiceClient> open_remote_client(const RemoteAccess& remote, Se
   auto client = std::make_unique<RemoteClient>();
   if (!dds::may_access(access, true, &error)) *refusal = {kControlUsage, "usage", error};
   else if (!name_of_client(remote, &name, &error)) *refusal = {kControlFailed, "failed", error};
+  else if (!dds::is_client_name(name)) *refusal = {kControlUsage, "usage", "the name of a client has letters, digits, '.', '-', '_' and '@', and at most " + std::to_string(rt::services::kMostRemoteClient) + " bytes: --client"};
   else if (client->open(access, remote.control, name, refusal)) return client;
   return nullptr;
 }
