@@ -216,6 +216,17 @@ TEST(IsoThread, KIsTheLeadAndFStaysTheFeed) {  // LinuxCNC G33
   EXPECT_EQ(iso("S100 M3 F200\nG33 Z-10").alarm_detail, "The block needs the word K.");
 }
 
+TEST(IsoThread, KIsTheWayAlongThePath) {     // LinuxCNC G33: "K - distance per revolution", along the line to X Y Z
+  const auto lead = [](const char* block) {  // along the axis that goes furthest, as the items have it
+    const Outcome run = iso(std::string("S600 M3\n") + block);
+    EXPECT_EQ(run.alarm, "") << block;
+    return run.moves().empty() ? 0 : run.moves().back().feed_mm_rev;
+  };
+  EXPECT_DOUBLE_EQ(lead("G33 X30 Z-30 K1.5"), 1.5 / std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(lead("G33 X3 Y4 Z-12 K2.6"), 2.4);
+  EXPECT_DOUBLE_EQ(lead("G33 Z-30 K1.5"), 1.5);
+}
+
 TEST(IsoMachine, MovesByTheMotionInForce) {  // RS-274/NGC 3.5.12
   Bench bench(NC_DIALECT_ISO);
   bench.work_offset(1, {5, 6, 7});

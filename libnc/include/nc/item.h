@@ -148,7 +148,7 @@ typedef struct nc_move {
   double radius;            /**< circular: radius of the machine path at its start, mm */
   double sweep_deg;         /**< circular: angle of the machine path about the plane normal, deg, counter-clockwise positive */
   double feed_mm_min;       /**< feed that the block commands, mm/min; 0 for rapid */
-  double feed_mm_rev;       /**< feed per revolution, mm/rev; 0 when the feed is per minute */
+  double feed_mm_rev;       /**< feed per revolution, mm/rev; 0 when the feed is per minute; of a thread its lead along the axis that goes furthest */
   double length;            /**< path length, mm (deg when only rotary axes move) */
   uint32_t turns;           /**< circular: full turns in addition to the arc up to its end point */
   uint8_t kind;             /**< nc_move_kind */

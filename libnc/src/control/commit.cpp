@@ -238,10 +238,10 @@ Committed Commit::commit(const Item& item, const Named& named) {
   return Committed::yes;
 }
 
-/// How much faster the path of the move just committed goes than its F says: F of a thread is along the axis that goes furthest (M700 6.7.1), and F of a
-/// helix may be the speed in the plane of its arc (6.6).
+/// How much faster the path of the move just committed goes than its F says: the lead of a thread is along the axis that goes furthest (M700 6.7.1), or along the
+/// path (LinuxCNC G33), and F of a helix may be the speed in the plane of its arc (6.6).
 double Commit::path_by_feed(const Move& move) const {
-  if (move.kind == NC_MOVE_THREAD) return along_longest();
+  if (move.kind == NC_MOVE_THREAD) return config_.rules->lead_along_path ? 1.0 : along_longest();
   return move.plane_feed ? helix_slope() : 1.0;
 }
 
@@ -348,6 +348,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.length = curve_.length;
       m.index_axes = index_axes(curve_);
       m.exact_stop = move.exact_stop || m.index_axes != 0;
+      if (move.kind == NC_MOVE_THREAD && config_.rules->lead_along_path) m.feed_mm_rev /= along_longest();
       m.skip_mask = move.skip_mask;
       m.skip_away = move.skip_away;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);

@@ -562,6 +562,8 @@ struct MotionRules {
 };
 
 /// The signals of a stitching head (HX 15.6), bits of the first word of outputs and of inputs of the macro interface; 0 = the family has none.
+  /// The lead of a thread is the way along its path in a turn (LinuxCNC G33). Otherwise it is that of the axis that goes furthest (M700 6.7.1).
+  bool lead_along_path = false;
 struct StitchRules {
   uint32_t call = 0;      ///< output: a stitch is asked for
   uint32_t done = 0;      ///< input: it is done

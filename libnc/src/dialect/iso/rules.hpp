@@ -116,7 +116,7 @@ inline constexpr Rules kRules = {
     .program = {.macro_interrupt = false, .motion_outlives_end = false,
                .loops_in_one_another = 0,
                .main_program_counts = false, .no_call_in_mdi = false, .sub_programs_in_one_another = 0},
-    .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
+    .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr, .lead_along_path = true},
     .rotation = {.plane_in_block = false, .angle_by_parameter = false},
     .mill = {.rotary_in_block = false, .polar_cuts_only = false},
     .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
