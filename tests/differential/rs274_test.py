@@ -327,7 +327,8 @@ class IsoMaker(Maker):
         code = self.random.choice(["G73", "G74", "G83", "G84", "G86", "G87"])
         top = self.at[2]
         r = round(top - self.number(3), 4)       # above and below the tool
-        z = round(r - self.random.uniform(1, 6), 4)
+        depth = 0 if code != "G87" and self.random.random() < 0.15 else self.random.uniform(1, 6)
+        z = round(r - depth, 4)  # LinuxCNC takes a bottom that is R
         x, y = self.number(20), self.number(20)
         self.absolute = True
         words = f"X{text(x)} Y{text(y)} Z{text(z)} R{text(r)} F200"

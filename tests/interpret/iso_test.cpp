@@ -288,7 +288,8 @@ TEST(IsoLength, ShiftsTheReadingAndMovesNothing) {  // RS-274/NGC 3.5.11
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H2\nG91 G0 Z1").path(), (Path{"rapid 0 0 1"}));
   // Without H the number of the tool counts.
   EXPECT_EQ(bench.at(0, 0, 0).run("T2 M6\nG43\nG0 Z1\nG43 H1\nG0 Z1\nG43 H0\nG0 Z1").path(),
-            (Path{"rapid 0 0 21", "rapid 0 0 11", "rapid 0 0 21"})) << "LinuxCNC: H0 is the tool in the spindle, too";
+            (Path{"rapid 0 0 21", "rapid 0 0 11", "rapid 0 0 21"}))
+      << "LinuxCNC: H0 is the tool in the spindle, too";
   EXPECT_EQ(bench.at(0, 0, 0).run("T2 M6\nT1\nG43 H0\nG0 Z1\nG43 H[1-1]\nZ2\nT0 M6\nG43 H0\nZ3").path(), (Path{"rapid 0 0 21", "rapid 0 0 22", "rapid 0 0 3"}));
   EXPECT_EQ(Bench(NC_DIALECT_ISO).run("G43 H0").alarm_detail, "Which tool is in the spindle is not known. Program M06 or M61, or the number of the offset.");
   // G53 moves without the length, which stays in force.
@@ -476,6 +477,15 @@ TEST(IsoCycle, DwellsInSecondsAndPecksByAHundredthOfAnInch) {  // RS-274/NGC 3.5
 TEST(IsoCycle, BelowRItGoesUpFirst) {
   EXPECT_EQ(iso("F100\nG81 X3 Y4 Z-1 R2\nX5\nG80").path(),
             (Path{"rapid 0 0 2", "rapid 3 4 2", "line 3 4 -1 F100", "rapid 3 4 2", "rapid 5 4 2", "line 5 4 -1 F100", "rapid 5 4 2"}));
+}
+
+TEST(IsoCycle, AHoleWithoutDepthEndsAtR) {  // LinuxCNC: only a bottom above R is an error
+  EXPECT_EQ(iso("F100\nG0 Z6\nG81 X4 Z6.5 R6.5\nG80").path(),
+            (Path{"rapid 0 0 6", "rapid 0 0 6.5", "rapid 4 0 6.5"}));
+  EXPECT_EQ(iso("F100\nG0 X1 Z6\nG90 G86 X2 Z0 R7 P0\nG91 X12\nG80").alarm, "NC-SPINDLE");
+  EXPECT_EQ(iso("F100\nG0 Z6\nG91 G81 X5 Z0 R7\nX5\nG80").path(),
+            (Path{"rapid 0 0 6", "rapid 0 0 13", "rapid 5 0 13", "rapid 10 0 13"}));
+  EXPECT_EQ(iso("F100\nG0 Z6\nG18 G81 X4 Y6.5 R6.5\nG80").path(), (Path{"rapid 0 0 6", "rapid 0 6.5 6", "rapid 4 6.5 6"}));
 }
 
 TEST(IsoCycle, RepeatsInIncrementalMode) {  // RS-274/NGC 3.5.16.1, the second example: R from where Z is, Z from R

@@ -345,10 +345,10 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.kind = static_cast<uint8_t>(move.kind);
       m.feed_mm_min = move.feed_mm_min;
       m.feed_mm_rev = move.feed_mm_rev;
+      if (move.kind == NC_MOVE_THREAD && config_.rules->lead_along_path) m.feed_mm_rev /= along_longest();
       m.length = curve_.length;
       m.index_axes = index_axes(curve_);
       m.exact_stop = move.exact_stop || m.index_axes != 0;
-      if (move.kind == NC_MOVE_THREAD && config_.rules->lead_along_path) m.feed_mm_rev /= along_longest();
       m.skip_mask = move.skip_mask;
       m.skip_away = move.skip_away;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);

@@ -7,7 +7,7 @@ namespace nc {
 namespace {
 
 /// Along the drilling axis, towards the bottom.
-double down(const Hole& hole) { return hole.bottom < hole.r ? -1.0 : 1.0; }
+double down(const Hole& hole) { return cuts_down(hole) ? -1.0 : 1.0; }
 
 /// Bottom of the next peck. The last cut ends at the bottom, shorter if needed; a rest below the resolution is not a peck of its own.
 double next_peck(const Hole& hole, double depth) {

@@ -53,6 +53,9 @@ struct Hole {
   double dwell_at_r_s = 0;                 ///< of a tap, where it has come back to R
 };
 
+/// The hole is made downwards. So is one without a depth: the tool comes to it from above (LinuxCNC G81 takes a bottom that is R).
+inline bool cuts_down(const Hole& hole) { return hole.bottom <= hole.r; }
+
 /// One stroke of a hole, with numbers.
 struct CycleStep {
   StrokeKind kind = StrokeKind::dwell;

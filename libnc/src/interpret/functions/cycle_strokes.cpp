@@ -75,7 +75,7 @@ void resolve_levels(BlockInHand& in) {
   }
   h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
   h.third = c.third_incremental ? h.bottom + c.third : c.third;
-  const bool below = h.bottom < h.r ? h.initial < h.r : h.initial > h.r;
+  const bool below = cuts_down(h) ? h.initial < h.r : h.initial > h.r;
   if (rules.rises_before_positioning && below) h.initial = h.r;  // it has gone up
   if (program_mapped(in))  // M700 13.6, 13.19
     for (double* level : {&h.initial, &h.r, &h.bottom, &h.third, &h.first}) *level = mapped_on(in, c.drill_axis, *level);
@@ -109,7 +109,7 @@ void rise_to_level(BlockContext& in) {
   const unsigned axis = in.state.cycle.drill_axis;
   const Hole& h = in.jobs.holes.hole;
   AxisVec target = in.position();
-  const double up = h.bottom < h.r ? 1.0 : -1.0;
+  const double up = cuts_down(h) ? 1.0 : -1.0;
   if ((h.r - target[axis]) * up <= 0) return;
   target[axis] = h.r;
   LinearStyle style;
@@ -350,7 +350,7 @@ Execution leave_hole(BlockContext& in) {
   if (!c.in_hole || stays_over_hole(in)) return Execution::done;
   resolve_levels(in);
   const Hole& h = in.jobs.holes.hole;
-  const double up = h.bottom < h.r ? 1.0 : -1.0, out = c.way_out - in.zero()[c.drill_axis];
+  const double up = cuts_down(h) ? 1.0 : -1.0, out = c.way_out - in.zero()[c.drill_axis];
   const bool r_of_layer = (out - h.r) * up > kAddingUp;
   if (r_of_layer && !in.words.has(Role::cycle_level)) return in.raise(Condition::words_missing, Role::cycle_level);
   c.in_hole = false;
