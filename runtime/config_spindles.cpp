@@ -110,17 +110,21 @@ void read_spindle_feedback(TableReader* root, Config* config) {
     }
 }
 
-// The highest speed of a synchronous tap is a parameter of the control, that of the spindle stands with its drive. A tap with a higher S would lose its spindle in the
-// hole, so where the file does not give the parameter the spindle does. Of several spindles the program takes one or the other: then the file has to say it.
+// The highest speed of a synchronous tap, where the family has a parameter for it.
+constexpr char kTapSpeed[] = "3005";
+
+// It is a parameter of the control, that of the spindle stands with its drive. A tap with a higher S would lose its spindle in the hole, so where the file does not
+// give the parameter the spindle does. Of several spindles the program takes one or the other: then the file has to say it.
 void limit_taps(Config* config) {
-  if (config->nc.dialect != NC_DIALECT_M700 || config->nc.system_count != 1 || config->nc.system[0].spindle_count > 1) return;
+  const auto family = static_cast<nc_dialect>(config->nc.dialect);
+  if (!nc_parameter_used(family, kTapSpeed) || config->nc.system_count != 1 || config->nc.system[0].spindle_count > 1) return;
   if (!is_on_drive(*config, 0, 0)) return;
   for (const ParameterSetting& set : config->parameters)
-    if (set.key == "3005") return;
+    if (set.key == kTapSpeed) return;
   for (const hal::canopen::NodeMap& node : config->canopen.nodes)
     for (const hal::canopen::AxisMap& axis : node.axes)
       // In front, so that one that is set by its name goes over it.
-      if (axis.spindle) config->parameters.insert(config->parameters.begin(), {"3005", 0, 0, parameter_text(axis.spindle->law.most * 60), {}});
+      if (axis.spindle) config->parameters.insert(config->parameters.begin(), {kTapSpeed, 0, 0, parameter_text(axis.spindle->law.most * 60), {}});
 }
 
 }  // namespace nc::rt

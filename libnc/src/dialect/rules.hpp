@@ -345,6 +345,9 @@ struct CycleRules {
   bool levels_outlive_mode = false;
   /// The hand of a tap is the direction in which the spindle turns (Series 8 G84). Otherwise that of its code (M700 13.1.1).
   bool tap_follows_spindle = false;
+  /// Each tap goes with the spindle, its lead has a word of its own, and it dwells by a P of its own block alone (Series 8 G84: K, and steps without a dwell). Otherwise
+  /// F is a feed or the lead as the block says, and P that of any hole before (M700 13.1.1 (6)).
+  bool tap_has_lead_word = false;
   /// The offset number of a block with a hole is that of the length of its tool (Series 8 G81). Otherwise it is that of radius compensation.
   bool takes_length_number = false;
   /// Q without I J says where the place beside the hole is, so that those of an earlier block count no more; two parameters say which way it goes: the axis of the
@@ -559,11 +562,11 @@ struct MotionRules {
   FilterTimes (*filter_times)(const FilterParameters& parameters, const FilteredMove& move, double cycle_s);
   /// The second code of a line or an arc is of one that ends at rest (Series 8 G21 to G23).
   bool second_code_rests = false;
+  /// The lead of a thread is the way along its path in a turn (LinuxCNC G33). Otherwise it is that of the axis that goes furthest (M700 6.7.1).
+  bool lead_along_path = false;
 };
 
 /// The signals of a stitching head (HX 15.6), bits of the first word of outputs and of inputs of the macro interface; 0 = the family has none.
-  /// The lead of a thread is the way along its path in a turn (LinuxCNC G33). Otherwise it is that of the axis that goes furthest (M700 6.7.1).
-  bool lead_along_path = false;
 struct StitchRules {
   uint32_t call = 0;      ///< output: a stitch is asked for
   uint32_t done = 0;      ///< input: it is done

@@ -83,6 +83,7 @@ inline constexpr Rules kRules = {
               .ends_at_r = true,
               .levels_outlive_mode = true,
               .tap_follows_spindle = true,
+              .tap_has_lead_word = true,
               .takes_length_number = true,
               .q_is_shift = true,  // G88, G89
               .bottom_is_below_r = true},

@@ -102,7 +102,7 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
   const CycleKind kind = cycle_kind(*in.dialect, row.function);
   if (rules.data == HoleData::of_code || (rules.data == HoleData::of_cycle && kind != state.cycle.kind)) forget_hole_data(state.cycle);
   const bool tapping = is_tap(kind), tapped = is_tap(state.cycle.kind);
-  if (tapping && in.dialect->addresses.has(Role::tap_lead)) state.cycle.has_p = false;  // Series 8 G84: its steps have no dwell, so that of another cycle is none of its own
+  if (tapping && rules.tap_has_lead_word) state.cycle.has_p = false;  // the dwell of another cycle is none of its own
   state.cycle.kind = kind;
   state.cycle.synchronous = state.cycle.synchronous && tapping;
   state.modal.set(row);

@@ -10,7 +10,7 @@ namespace nc {
 namespace {
 
 /// Series 8 G84: each tap goes with the spindle, and its lead has a word of its own.
-bool lead_has_word(const InForce& in) { return in.dialect->addresses.has(Role::tap_lead); }
+bool lead_has_word(const InForce& in) { return in.dialect->rules.cycle.tap_has_lead_word; }
 
 /// HX 12.3.5: synchronous taps have codes of their own. Their F is a feed like any other, and with the speed in force it makes the lead.
 bool rigid_by_code(const BlockInHand& in) {
