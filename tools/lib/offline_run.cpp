@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/lib/cut_item.hpp"
+#include "tools/lib/life_minutes.hpp"
 #include "tools/lib/operation_alarm.hpp"
 
 namespace nc::tools {
@@ -177,6 +178,7 @@ class OfflineRun {
       case NC_ITEM_SYNC:
         if (item.u.sync.what & NC_SYNC_CLOCK) loops_.asked();
         sink_.sync(item.source, item.u.sync.what);
+        wear_tool_in_spindle();
         if (items_.answer(world_.answer(item.u.sync.what)) < NC_OK) {
           fail("the control refused the answer to a sync");
           return false;
@@ -210,8 +212,8 @@ class OfflineRun {
     return true;
   }
 
-  // All moves can be passed over: none of them may raise an operation alarm, and how long it lasts does not depend on its place.
-  bool may_pass() const { return world_.clock().is_constant() && (!alarms_ || (!digits_ && !world_.spindle_stands())); }
+  // All moves can be passed over: none of them may raise an operation alarm, how long it lasts does not depend on its place, and nobody counts how long it cuts.
+  bool may_pass() const { return !life_.managed() && world_.clock().is_constant() && (!alarms_ || (!digits_ && !world_.spindle_stands())); }
 
   bool holds(const nc_item& item) {
     if (!alarms_ || !operation_alarm(item.u.move, world_.spindle_stands() ? 0.0 : 1.0, &result_.alarm)) return false;
@@ -229,6 +231,7 @@ class OfflineRun {
     if (move.feed_mm_rev > 0.0 || move.feed_mm_min == 0.0) [[unlikely]]
       if (holds(item)) return false;
     if (move.kind == NC_MOVE_HELIX) world_.clock().set_helix_in_plane(items_.helix_in_plane());
+    const double begins = world_.seconds();
     const bool moves = world_.begin(&move);
     const bool whole = runs_through(&move);
     if (!whole) {
@@ -236,6 +239,7 @@ class OfflineRun {
       world_.cut_short();
     }
     world_.arrive(move);
+    if (move.kind != NC_MOVE_RAPID) life_.cut(world_.seconds() - begins);
     if (moves && move.length > 0.0) note_move(item);
     return whole || goes_on();
   }
@@ -292,10 +296,17 @@ class OfflineRun {
       }
       case NC_ACTION_CONTROL:
         world_.control(action);
+        if (action.index != NC_CONTROL_TOOL_LIFE) return;
+        wear_tool_in_spindle();
+        life_.mount(action);
         return;
       default:
         return;  // interface outputs and control flags are no events of a trace
     }
+  }
+
+  void wear_tool_in_spindle() {
+    if (life_.managed()) items_.wear(life_.place(), life_.tool(), life_.take_minutes());
   }
 
   // False: the run has ended, by a reset in its middle.
@@ -381,6 +392,7 @@ class OfflineRun {
   bool ended_ = false, interrupt_ = false;
   bool alarms_ = false, digits_ = false;  // operation alarms are raised; F1 to F5 may be feeds of one digit
   CutItem cut_;
+  LifeMinutes life_;
   const bool cuts_;             // an event of the clock may end an item in its middle
   const unsigned axis_count_;
 };
