@@ -307,6 +307,31 @@ TEST(CodeCall, NotDuringAFixedCycle) {  // P310
   EXPECT_EQ(bench.run("G81 X1. Z-1. R1. F100\nM20\nM30").alarm, "P310");
 }
 
+/// The block that commands a cycle is in it, and one that ends it is not: a macro would drill where it moves, or the hole be lost.
+TEST(CodeCall, TheBlockSaysWhetherItIsDuringAFixedCycle) {  // P310, 13.5.2
+  const auto run = [](const char* as_m98_or_g65, const std::string& blocks) {
+    Bench bench;
+    bench.add("O8", "X33.\nM99\n");
+    bench.param("7001", "20").param("7002", as_m98_or_g65).param("7003", "8");
+    return bench.run("G90 G0 Z50.\n" + blocks + "\nG80\nM30");
+  };
+  for (const char* type : {"0", "1"})
+    for (const char* block : {"G81 X1. Z-5. R2. F100 M20", "M20 G81 X1. Z-5. R2. F100", "G81 X1. Z-5. R2. F100\nX2. M20", "G81 M20"}) {
+      const Outcome did = run(type, block);
+      EXPECT_EQ(did.alarm, "P310") << type << ' ' << block;
+      EXPECT_EQ(did.alarm_detail, "A macro cannot be called by M20 during a fixed cycle.");
+      for (const std::string& move : did.path()) EXPECT_EQ(move.find("33"), std::string::npos) << move;
+    }
+  EXPECT_EQ(run("0", "G81 X1. Z-5. R2. F100\nG80 M20").path().back(), "rapid 33 0 50");
+  EXPECT_EQ(run("0", "G81 X1. Z-5. R2. F100\nM20 G80").path().back(), "rapid 33 0 50");
+  EXPECT_EQ(run("0", "G81 X1. Z-5. R2. F100\nG0 X9. M20").path().back(), "rapid 33 0 50");
+  EXPECT_EQ(run("0", "G81 G1 X1. Z-5. F100 M20").path(), (Path{"rapid 0 0 50", "line 1 0 -5 F100", "line 33 0 -5 F100"})) << "the motion counts";
+  for (const char* block : {"G80 M20", "G0 M20"})  // in front of a call as G65 the codes of the block do not move, and G80 is no code there (appendix 2)
+    EXPECT_EQ(run("1", std::string("G81 X1. Z-5. R2. F100\n") + block).alarm, "P310") << block;
+  EXPECT_EQ(run("1", "G81 X1. Z-5. R2. F100\nG80\nM20").path().back(), "rapid 33 0 50");
+  EXPECT_EQ(run("1", "G81 X1. Z-5. R2. F100\nG0 G65 P8").path().back(), "rapid 33 0 50") << "a code of group 1 ends the cycle (13.1.1 (4))";
+}
+
 TEST(CodeCall, AsciiLetterIsOrdinaryInACycleBehindACallAndWithG10) {  // 13.5.3
   Bench bench;
   bench.add("O8", "#100=#100+1\n#101=#7\nM99\n");

@@ -61,6 +61,14 @@ bool has_words_of_code(const Block& block, const FrontEnd& front) {
 
 }  // namespace
 
+bool begins_cycle(const Block& block, const FrontEnd& front, const Caller& caller) {
+  for (unsigned i = 0; i < block.words.size(); ++i) {
+    const FunctionRow* const row = i != caller.at ? front.code_of(block.words[i]) : nullptr;
+    if (row != nullptr && starts_cycle(row->function)) return true;
+  }
+  return false;
+}
+
 Reading find_caller(const Block& block, FrontEnd& front, bool functions_only, bool in_cycle, Caller* caller) {
   const bool ascii_allowed = !in_cycle && !has_words_of_code(block, front);
   for (unsigned i = 0; i < block.words.size(); ++i) {

@@ -19,6 +19,9 @@ struct Caller {
 /// of the vendor count. `in_cycle`: a fixed cycle is in force.
 Reading find_caller(const Block& block, FrontEnd& front, bool functions_only, bool in_cycle, Caller* caller);
 
+/// The block has the code of a fixed cycle beside the word that calls, which may be such a code itself (HX 14.1.3: one of the control is taken over).
+bool begins_cycle(const Block& block, const FrontEnd& front, const Caller& caller);
+
 /// The block has a code of the control by which it goes on in another program, or returns from this one, or ends it.
 Reading goes_on_elsewhere(const Block& block, FrontEnd& front, bool* elsewhere);
 

@@ -56,6 +56,12 @@ Execution run_rest_first(Interpreter& in, const Caller& caller) {
   return check_calls_alone(in, caller);
 }
 
+/// M700 App.1 P310: no such call during a fixed cycle. What the block is behind a call as M98 is executed first, so it may be what ends the cycle, or what begins it.
+Execution check_cycle_ends(Interpreter& in, const Caller& caller) {
+  const Execution did = read_block_command(in);
+  return did == Execution::done && cycle_goes_on(in) ? in.raise(Condition::call_in_cycle, caller.word, caller.value) : did;
+}
+
 /// The common variable in which the called program finds the value of the word: of an ASCII code, or of a tool number, which is a whole one.
 Execution set_variable_of_call(Interpreter& in, const Caller& caller) {
   if (!caller.ascii && caller.call->variable == 0) return Execution::done;
@@ -138,14 +144,18 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
     show_code(in, caller);
     return call_vendor(in, caller);
   }
-  // M700 App.1 P310: no such call during a fixed cycle.
-  if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, caller.word, caller.value);
+  const bool sub = type_of_call(in, caller) == CodeCallType::sub;
+  const bool in_cycle = in.state.cycle.kind != CycleKind::none || begins_cycle(*in.block, in.front, caller);
+  if (in_cycle && !sub) return in.raise(Condition::call_in_cycle, caller.word, caller.value);
   if (caller.ascii && std::fabs(caller.value) > in.dialect->rules.range.largest_calling_value) return in.raise(Condition::value_range, caller.word, caller.value);
-  show_code(in, caller);
-  if (type_of_call(in, caller) == CodeCallType::sub) {
+  if (sub) {
     did = run_rest_first(in, caller);
-    return did == Execution::done ? set_variable_of_call(in, caller) : did;
+    if (did == Execution::done && in_cycle) did = check_cycle_ends(in, caller);
+    if (did != Execution::done) return did;
+    show_code(in, caller);
+    return set_variable_of_call(in, caller);
   }
+  show_code(in, caller);
   *taken = true;
   did = check_no_way_on(in, caller);
   if (did == Execution::done) did = apply_codes_before(in, caller.at);

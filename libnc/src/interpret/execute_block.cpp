@@ -227,9 +227,28 @@ Execution apply_systems(Interpreter& in) {
   return own_number && !in.words.meeting && !keeps_its_length_number(*in.dialect, one_shot) ? change_length(in) : Execution::done;
 }
 
-/// M700 App.2: codes of length compensation and of work systems before a macro call only become modal.
+/// The cycle of the block is made although a motion stands in it, too (CycleBeside).
+bool cycle_counts(const BlockInHand& in) {
+  const Command& w = in.words;
+  if (w.cycle == nullptr || w.cycle->function == Function::cycle_off) return false;
+  switch (in.dialect->rules.cycle.beside) {
+    case CycleBeside::motion:
+    case CycleBeside::fault: return false;
+    case CycleBeside::cycle: return true;
+    case CycleBeside::last: break;
+  }
+  bool counts = false;
+  for (const FunctionRow* row : w.functions) {
+    if (row == w.cycle) counts = true;
+    if (row == w.motion) counts = false;
+  }
+  return counts;
+}
+
+/// M700 App.2: codes of length compensation and of work systems before a macro call only become modal. So do motions, which end a fixed cycle (13.1.1 (4)).
 Execution update_beside_call(Interpreter& in) {
   const PrecedenceRow& beside = precedence_of(*in.dialect, in.words.one_shot->function);
+  if (in.words.motion != nullptr && !cycle_counts(in)) cancel_cycle(in);
   for (const FunctionRow* row : in.words.functions) {
     Execution did = Execution::done;
     if (row->function == Function::work_system && beside.work == Precedence::modal) did = select_work_system(in, *row);
@@ -259,24 +278,6 @@ Execution execute_motion(Interpreter& in) {
 }  // namespace
 
 namespace {
-
-/// The cycle of the block is made although a motion stands in it, too (CycleBeside).
-bool cycle_counts(const BlockInHand& in) {
-  const Command& w = in.words;
-  if (w.cycle == nullptr || w.cycle->function == Function::cycle_off) return false;
-  switch (in.dialect->rules.cycle.beside) {
-    case CycleBeside::motion:
-    case CycleBeside::fault: return false;
-    case CycleBeside::cycle: return true;
-    case CycleBeside::last: break;
-  }
-  bool counts = false;
-  for (const FunctionRow* row : w.functions) {
-    if (row == w.cycle) counts = true;
-    if (row == w.motion) counts = false;
-  }
-  return counts;
-}
 
 /// Series 8: a function with places of its own beside the code of a cycle. I J K would be words of both, and only one of them would be executed.
 bool has_places_of_its_own(Function f) { return f == Function::holes_on_frame_ccw || f == Function::holes_on_frame_cw || cuts_cavity(f) || f == Function::sine_loop; }
@@ -337,6 +338,13 @@ Execution refuse_line_angle(BlockInHand& in) {
 }
 
 }  // namespace
+
+bool cycle_goes_on(const BlockInHand& in) {
+  const Command& w = in.words;
+  if (w.motion != nullptr && !cycle_counts(in)) return false;
+  if (w.cycle == nullptr) return in.state.cycle.kind != CycleKind::none;
+  return w.cycle->function != Function::cycle_off;
+}
 
 Execution execute_motion_of_words(BlockContext& in) {
   const Command& w = in.words;

@@ -337,6 +337,9 @@ Execution call_with_block(Interpreter& in);      ///< a block in the mode of G66
 bool modal_call_takes_blocks(const Interpreter& in);
 void cancel_modal_call(Interpreter& in);      ///< G67
 
+/// interpret/execute_block.cpp: a fixed cycle is in force behind the block that has been read.
+bool cycle_goes_on(const BlockInHand& in);
+
 /// interpret/code_call.cpp
 /// Handles a block that may hold a registered code. *taken: the call has been made, and all words of the block belong to it.
 Execution dispatch_block(Interpreter& in, bool* taken);
