@@ -25,6 +25,11 @@ class Faults:
     def clean(self):
         return not self.control.alarms() and set(self.drives.states()) == {"enabled"} and self.control.state() == "idle"
 
+    def reset(self):
+        """Whether the machine is clean behind a reset. One that comes while its cause is still there is answered when its lifespan is over, and pressed again."""
+        self.control.press("reset", good=False, lifespan_ms=1000)
+        return until(self.clean, 4 if not self.control.alarms() else 0)
+
     def restore(self):
         """Whatever the check before has left behind: the machine is whole again, so that one failure is one failure."""
         if self.drives.alive() and self.gpio.is_whole() and self.clean():
@@ -34,14 +39,11 @@ class Faults:
         self.gpio.mend()
         self.drives.begin()
 
-        def reset():
-            self.control.press("reset", good=False)
-            return until(self.clean, 4)
-        if not until(reset, 30):
+        if not until(self.reset, 30):
             self.drives.begin(anew=True)
             run("systemctl", "reset-failed", "ncrtd", good=False)
             self.control.service("restart")
-            if not until(reset, 60):
+            if not until(self.reset, 60):
                 raise Failed(f"the machine is not to be had: {self.control.says()}, drives {self.drives.states()}")
         print("      (the machine was not ready, and has been brought back)", flush=True)
 
@@ -84,10 +86,7 @@ class Faults:
 
     def acknowledge(self, what):
         """Behind a reset the drives come on, the alarms are gone, and nothing moves by itself."""
-        def reset():
-            self.control.press("reset", good=False)
-            return until(self.clean, 4)
-        if not until(reset, 45):
+        if not until(self.reset, 45):
             raise Failed(f"{what}: a reset does not bring it back: {self.control.says()}, drives {self.drives.states()}")
         self.quiet(f"{what}, behind a reset")
 
@@ -101,8 +100,7 @@ class Faults:
 
     def is_back(self, what, process):
         """The service has another process than this one, which is gone, and nothing runs in it."""
-        run("systemctl", "reset-failed", "ncrtd", good=False)  # many cuts in a minute are no reason to give up here
-        if not until(lambda: self.control.shown("MainPID") not in ("0", str(process)) and self.control.state() == "idle", 120, every=0.3):
+        if not until(lambda: self.control.process() not in (0, process) and self.control.state() == "idle", 120, every=0.3):
             raise Failed(f"{what}: the service does not come back: {self.control.log(8)}")
 
     def quick_stop(self, *others):
@@ -136,8 +134,7 @@ class Faults:
         said = self.alarmed(("R16", "The emergency stop chain is open"), ("R12", "EMCY 5400h"))
         self.rests("emergency stop")
         self.refuses("emergency stop")
-        self.control.press("reset", good=False)
-        time.sleep(1)
+        self.control.press("reset", good=False, lifespan_ms=1000)
         if not self.control.alarms() or "enabled" in self.drives.states():
             raise Failed(f"a reset with the chain open: {self.control.says()}, drives {self.drives.states()}")
         self.drives.sto(False)
@@ -241,7 +238,7 @@ class Faults:
         self.refuses("the supply is good again, no reset")
         self.acknowledge("the supply is good again")
         self.supply_fails("the supply fails for good")
-        process, counted, places, sides = int(self.control.shown("MainPID")), self.control.variable(501), self.drives.places(), self.on_path()
+        process, counted, places, sides = self.control.process(), self.control.variable(501), self.drives.places(), self.on_path()
         os.kill(process, signal.SIGKILL)
         self.gpio.drive("SUPPLY", True)
         self.is_back("the power has gone", process)
@@ -264,7 +261,7 @@ class Faults:
         for n in range(self.kills):
             self.in_motion()
             time.sleep(random.uniform(0.0, 1.5))
-            process = int(self.control.shown("MainPID"))
+            process = self.control.process()
             seen = self.control.variable(501)
             os.kill(process, signal.SIGKILL)
             self.rests(f"kill {n}")

@@ -40,6 +40,12 @@ def until(what, seconds, every=0.1):
     return value
 
 
+def busy():
+    """The time for which the processor has worked since the boot: what a check costs the computer that emulates it, which skips over the rest."""
+    idle, waits = [int(word) for word in pathlib.Path("/proc/stat").read_text().split()[4:6]]
+    return time.clock_gettime(time.CLOCK_BOOTTIME) - (idle + waits) / os.sysconf("SC_CLK_TCK")
+
+
 class Gpio:
     """A chip of gpio-sim (configfs) with named lines."""
     FOLDER = pathlib.Path("/sys/kernel/config/gpio-sim/nc")
@@ -96,33 +102,61 @@ class Gpio:
         return self.file(line, "value").read_text().strip() == "1"
 
 
+class Spawner:
+    """The process of plant.py from which those of the drives come: to load python canopen costs an emulated processor half a second, once."""
+    LOG = pathlib.Path("/run/plants.log")
+
+    def __init__(self):
+        self.process = subprocess.Popen([sys.executable, HERE / "plant.py", INTERFACE, GAUGES], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.LOG.open("a"), text=True)
+        self.ready = set()
+
+    def line(self):
+        """What comes next: the process of a new drive, or "ready NODE"."""
+        words = self.process.stdout.readline().split()
+        if not words:
+            raise Failed(f"the drives do not begin: {self.LOG.read_text()}")
+        if words[0] == "ready":
+            self.ready.add(int(words[1]))
+        return words
+
+    def begin(self, node):
+        self.ready.discard(node)
+        print(node, file=self.process.stdin, flush=True)
+        while (words := self.line())[0] == "ready":
+            pass
+        return int(words[1])
+
+    def wait(self, node):
+        while node not in self.ready:
+            self.line()
+
+
 class Drive:
     """A node of the bus, a process of its own (plant.py), and the gauge at its axis."""
     PLACE = struct.Struct("<dddB")
     PASSED = struct.Struct("<dd")  # behind it, of the last SYNCs: the kernel's time of the frame, place
     STATES = ["disabled", "ready", "on", "enabled", "stop", "reaction", "fault"]
 
-    def __init__(self, axis, node, per_mm, zero):
-        self.axis, self.node, self.per_mm, self.zero = axis, node, per_mm, zero
+    def __init__(self, spawner, axis, node, per_mm, zero):
+        self.spawner, self.axis, self.node, self.per_mm, self.zero = spawner, axis, node, per_mm, zero
         self.begin()
 
     def begin(self):
-        self.log = open(f"/run/plant{self.node}.log", "a")
-        self.process = subprocess.Popen([sys.executable, HERE / "plant.py", INTERFACE, str(self.node), GAUGES], stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.process = self.spawner.begin(self.node)
 
     def wait(self):
-        if self.process.stdout.readline() != "ready\n":
-            raise Failed(f"drive {self.node} does not begin: {pathlib.Path(self.log.name).read_text()}")
+        self.spawner.wait(self.node)
 
     def kill(self):
-        self.process.kill()
-        self.process.wait()
+        os.kill(self.process, signal.SIGKILL)
+        if not until(lambda: not self.alive(), 5, every=0.002):
+            raise Failed(f"drive {self.node} outlives SIGKILL")
 
     def alive(self):
-        return self.process.poll() is None
+        return os.path.exists(f"/proc/{self.process}")
 
     def trip(self):
-        self.process.send_signal(signal.SIGUSR1)
+        os.kill(self.process, signal.SIGUSR1)
 
     def gauge(self):
         place, speed, _, state = self.PLACE.unpack((GAUGES / str(self.node)).read_bytes()[:self.PLACE.size])
@@ -145,7 +179,8 @@ class Drives(list):
     def __init__(self):
         GAUGES.mkdir()
         # The scales of machine.toml: Y is turned round, Z has a gear and begins 12.5 mm above 0.
-        super().__init__([Drive("X", 1, 131072 / 10, 0.0), Drive("Y", 2, -131072 / 10, 0.0), Drive("Z", 3, 131072 * 2 / 5, 12.5)])
+        spawner = Spawner()
+        super().__init__([Drive(spawner, "X", 1, 131072 / 10, 0.0), Drive(spawner, "Y", 2, -131072 / 10, 0.0), Drive(spawner, "Z", 3, 131072 * 2 / 5, 12.5)])
         for drive in self:
             drive.wait()
 
@@ -203,6 +238,14 @@ class Control:
     @staticmethod
     def shown(name):
         return run("systemctl", "show", "-p", name, "--value", "ncrtd")
+
+    @staticmethod
+    def process():
+        """The process of the service, 0 without one. From its cgroup: systemctl costs the emulated processor a quarter of a second."""
+        try:
+            return int(pathlib.Path("/sys/fs/cgroup/system.slice/ncrtd.service/cgroup.procs").read_text().split()[0])
+        except (OSError, IndexError):
+            return 0
 
     @staticmethod
     def log(lines=1000):
@@ -266,10 +309,10 @@ class Control:
     def ctl(*words, good=True):
         return run("ncctl", *words, good=good)
 
-    def press(self, service, good=True, **args):
+    def press(self, service, good=True, lifespan_ms=10000, **args):
         """Does what an operator's screen does; gives the text of the answer. That it is refused is an error unless `good` is false."""
         self.answer("control.take", lease_ms=60000)
-        said = self.answer(service, lifespan_ms=10000, **args)
+        said = self.answer(service, lifespan_ms=lifespan_ms, **args)
         if good and not said.get("ok"):
             raise Failed(f"{service} {args}: {said}; {self.says()}")
         return said.get("text", "")

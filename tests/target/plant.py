@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One CiA 402 drive on python canopen with the axis behind it, on a CAN interface of the kernel. The object dictionary and the states are those of
-tests/canopen/peer_drives.py; here are the plant, the reaction to a control that is silent, and the faults that a test brings about.
+"""CiA 402 drives on python canopen with their axes behind them, on a CAN interface of the kernel, each a process of its own. The object dictionary and the
+states are those of tests/canopen/peer_drives.py; here are the plant, the reaction to a control that is silent, and the faults that a test brings about.
 
-usage: plant.py INTERFACE NODE FOLDER
+usage: plant.py INTERFACE FOLDER
 
+Each line of standard input is a node whose drive begins; "process PID" is the answer, and "ready NODE" follows when it hears the bus.
 The place of the axis is kept in FOLDER/NODE, as a dial gauge that needs no bus sees it, and outlives this process as an absolute encoder does.
 SIGUSR1: the drive trips. While FOLDER/sto exists the safe torque off input of the drive is open.
 """
@@ -127,8 +128,7 @@ class Plant(Drive):
             self.node.emcy.send(NO_HEARTBEAT, 0x11)  # last: on a bus that is down it is an error
 
 
-def main():
-    interface, number, folder = sys.argv[1], int(sys.argv[2]), pathlib.Path(sys.argv[3])
+def be_drive(interface, number, folder):
     filters = [{"can_id": each, "can_mask": 0x7FF} for each in (0, 0x80, 0x200 + number, 0x600 + number, 0x77F)]
     network = canopen.Network(can.Bus(interface="socketcan", channel=interface, can_filters=filters))
     drive = Plant(network, number, folder)
@@ -145,7 +145,7 @@ def main():
     network.subscribe(0x80, lambda _id, _data, at: drive.sync(at))
     network.subscribe(0, on_nmt)
     network.subscribe(0x77F, on_heartbeat)
-    print("ready", flush=True)
+    print("ready", number, flush=True)
     last = 0.0
     while True:
         try:
@@ -164,6 +164,17 @@ def main():
                 drive.watch()
         except can.CanError:  # what it sends is lost with the bus
             pass
+
+
+def main():
+    interface, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # who is killed is gone at once
+    for line in sys.stdin:
+        process = os.fork()
+        if process == 0:
+            return be_drive(interface, int(line), folder)
+        print("process", process, flush=True)
+    return None
 
 
 if __name__ == "__main__":
