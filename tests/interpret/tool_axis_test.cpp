@@ -127,5 +127,15 @@ TEST(LengthAlongTool, Alarms) {
   EXPECT_EQ(alarm_of("G0 B90.\nG43.1 X20. H1\nG3 X0 Y20. I-20. F100\nM30"), "P70 L3");
 }
 
+// With G43.1 in force a cycle is barred by the radius alone, and its sentence tells the code that ends that one.
+TEST(ToolAxis, TheSentenceOfACycleInRadiusCompensationTellsG40) {
+  Bench bench(NC_DIALECT_M700, axes("XYZbc"));
+  bench.tool(1, 0).tool(2, 3);
+  const Outcome run = bench.run("G90 G17 G1 F100\nG43.1 H1\nG41 D2 X30.\nX60.\nG81 X70. Z-5. R1.\nM30");
+  EXPECT_EQ(run.alarm, "P155");
+  EXPECT_EQ(run.alarm_line, 5u);
+  EXPECT_NE(run.alarm_detail.find("G40 first"), std::string::npos) << run.alarm_detail;
+}
+
 }  // namespace
 }  // namespace nc::test

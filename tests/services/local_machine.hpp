@@ -151,7 +151,7 @@ class LocalMachine : public testing::Test {
     files_ = std::make_unique<tools::ProgramFiles>(config_.programs_folder(), config_.program_text);
     files_->set_stop([this] { return runtime_->reads_too_long(); });
     files_->attach(runtime_->control());
-    files_->set_watch([this](unsigned file, const std::string& path, const tools::ProgramFiles::Text& text) { programs_->add_name(file, path, text); }, [this](unsigned file) { programs_->drop(file); });
+    files_->set_watch([this](unsigned file, const std::string& path, const tools::ProgramFiles::Text& read) { programs_->add_name(file, path, read); }, [this](unsigned file) { programs_->drop(file); });
     runtime_->set_program_loader([this](const std::string& name, unsigned* file, std::string* why) {
       const std::string path = config_.programs_folder() + "/" + name;
       if (files_->add(runtime_->control(), path, file, why) != NC_OK) return false;
