@@ -128,6 +128,11 @@ class Plant(Drive):
             self.node.emcy.send(NO_HEARTBEAT, 0x11)  # last: on a bus that is down it is an error
 
 
+def say(line):
+    """In one piece, since all the drives say theirs into one pipe."""
+    os.write(sys.stdout.fileno(), line.encode())
+
+
 def be_drive(interface, number, folder):
     filters = [{"can_id": each, "can_mask": 0x7FF} for each in (0, 0x80, 0x200 + number, 0x600 + number, 0x77F)]
     network = canopen.Network(can.Bus(interface="socketcan", channel=interface, can_filters=filters))
@@ -145,7 +150,7 @@ def be_drive(interface, number, folder):
     network.subscribe(0x80, lambda _id, _data, at: drive.sync(at))
     network.subscribe(0, on_nmt)
     network.subscribe(0x77F, on_heartbeat)
-    print("ready", number, flush=True)
+    say(f"ready {number}\n")
     last = 0.0
     while True:
         try:
@@ -173,7 +178,7 @@ def main():
         process = os.fork()
         if process == 0:
             return be_drive(interface, int(line), folder)
-        print("process", process, flush=True)
+        say(f"process {process}\n")
     return None
 
 
