@@ -143,7 +143,8 @@ bool ChangeLog::keep_aside(const std::string& file, std::string* damage) {
   const int made = aside.empty() ? -1 : ::open(next.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0640);
   const bool written = made >= 0 && write(made, good.data(), good.size()) == static_cast<ssize_t>(good.size()) && fdatasync(made) == 0;
   if (made >= 0) close(made);
-  const bool kept = written && rename(file.c_str(), aside.c_str()) == 0 && rename(next.c_str(), file.c_str()) == 0;
+  // By a second name the file has one at each moment; a file system without such links has to do without.
+  const bool kept = written && (link(file.c_str(), aside.c_str()) == 0 || rename(file.c_str(), aside.c_str()) == 0) && rename(next.c_str(), file.c_str()) == 0;
   if (!kept && made >= 0) (void)unlink(next.c_str());
   *damage += kept ? ": the file is kept as " + aside : ": the file stays as it is";
   return kept;

@@ -134,8 +134,8 @@ TEST(Spiral, OfARotaryAxisThereIsNoneInInch) {  // 3.2 note 5 says of arcs alone
   Bench bench(NC_DIALECT_M700, axes("XYZc"));
   bench.param("1030", "C");
   EXPECT_EQ(bench.run("G21 G90 G17 X0 C0 F100.\nG2.1 X20. C10. I0 J10. P1\nM30").alarm, "");
-  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G90 G17 X0 C0 F10.\nG2.1 X2. C10. I0 J10. P1\nM30").alarm, "P39");
-  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G90 G17 X0 Y0 F10.\nG2.1 X2. Y1. I0 J1. P1\nM30").alarm, "");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G90 G17 G1 X0 C0 F10.\nG2.1 X2. C10. I0 J10. P1\nM30").alarm, "P39");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G20 G90 G17 G1 X0 Y0 F10.\nG2.1 X2. Y1. I0 J1. P1\nM30").alarm, "");
 }
 
 TEST(Spiral, TurnsOfBothTypes) {  // M700 6.13

@@ -178,7 +178,9 @@ TEST(ChangeLogFile, TheLastChangeOfARowIsKept) {
   for (unsigned round = 0; round < 3; ++round) {
     ChangeLog log(path);
     ASSERT_TRUE(log.open(&error)) << error;
-    if (round == 0) ASSERT_TRUE(log.add(value_change("anna", "tool 33 length", 7), &error)) << error;
+    if (round == 0) {
+      ASSERT_TRUE(log.add(value_change("anna", "tool 33 length", 7), &error)) << error;
+    }
     for (int n = 1; n <= 1300; ++n) ASSERT_TRUE(log.add(value_change("ben", "variable 1 505", static_cast<int>(round) * 1300 + n, 3500), &error)) << error;
     look(log, round);
     ChangeLog again(path);

@@ -6,6 +6,7 @@
 
 mkdir "$work/programs"
 sed -e "s#^programs = .*#programs = \"$work/programs\"#" -e "s#^socket = \"\"#socket = \"$work/mill.sock\"#" -e "s#^changes = \"\"#changes = \"$work/changes\"#" -e "s#^history = \"\"#history = \"$work/history\"#" \
+  -e 's/^# *\(variables\|offsets\) =/\1 =/' \
   -e 's#^policy = "fifo"#policy = "other"#' -e 's#^lock_memory = true#lock_memory = false#' -e 's#^overrun = .*#overrun = "count"#' -e 's#^check = .*#check = "off"#' "$source/etc/machine.toml" >"$work/machine.toml"
 cp "$source/etc/mill.il" "$work/mill.il"
 export NC_SOCKET=$work/mill.sock
@@ -73,15 +74,15 @@ is 'program 0' 'r["variables"][0]["changed_by"] + " " + str(r["variables"][0]["c
 
 # The block in execution is named from the first block of a called program on, also where the place of another one is used again.
 expect 0 "$ncctl" mode auto
-for n in 3001 3002; do printf 'G4 X10%s.\nM99\n' "$n" >"$work/programs/O$n.nc"; done
+for n in 3001 3002; do printf 'G4 X9%s.\nM99\n' "$n" >"$work/programs/O$n.nc"; done
 printf 'G4 X.1\nM98 P3002\nM30\n' >"$work/programs/one.nc"
 printf 'G4 X.1\nM98 P3001\nM30\n' >"$work/programs/two.nc"
-in_call() { [ "$(value 'r["systems"][0]["state"] + str(r["systems"][0]["main_line"])' status)" = running2 ]; }
+in_call() { [ "$(value '(lambda s: s["state"] == "running" and s["block"] not in ("", "G4 X.1"))(r["systems"][0])' status)" = True ]; }
 for pair in one:3002 two:3001 one:3002; do
   expect 0 "$ncctl" select "${pair%%:*}.nc"
   expect 0 "$ncctl" start
   until_true in_call
-  is "${pair%%:*}.nc O${pair##*:}.nc G4 X10${pair##*:}." '(lambda s: s["program"] + " " + s["file"] + " " + s["block"])(r["systems"][0])' status
+  is "${pair%%:*}.nc O${pair##*:}.nc G4 X9${pair##*:}." '(lambda s: s["program"] + " " + s["file"] + " " + s["block"])(r["systems"][0])' status
   expect 0 "$ncctl" reset
 done
 
@@ -107,6 +108,7 @@ expect 1 "$ncctl" history --user $'M\374ller'
 said err 'UTF-8'
 
 # A file of changes in which there is something else is kept aside and told, and what can be read of it goes on. What a power cut leaves of a line is nothing of this kind.
+expect 0 "$ncctl" tools set 8 --length 2
 finish
 printf '{"after":"1","before":"0","cli' >>"$work/changes"
 begin

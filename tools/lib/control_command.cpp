@@ -455,7 +455,7 @@ class Command {
         if (line.size() <= rt::services::kMostFrameBytes) line += static_cast<char>(c);  // one more says that it is too long
         continue;
       }
-      if (line.find_first_not_of(" \t\r") != std::string::npos) {
+      if (line.size() > rt::services::kMostFrameBytes || line.find_first_not_of(" \t\r") != std::string::npos) {
         const int status = answer(line);
         if (first == 0) first = status;
         if (status_ == kControlFailed) return status_;  // nobody gets the replies
