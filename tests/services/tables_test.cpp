@@ -40,7 +40,11 @@ class TableServices : public LocalMachine {
 TEST_F(TableServices, WhatIsSetIsReadAndWrittenDown) {
   ServiceClient client(path_);
   EXPECT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 81.25}, {"radius_wear", -0.02}}), "");
-  const Json tool = client.call("tools.list", {{"from", 3}, {"count", 1}})["reply"];
+  Json tool = client.call("tools.list", {{"from", 3}, {"count", 1}})["reply"];
+  const Json change = client.call("changes", {{"count", 1}})["reply"]["changes"][0];
+  EXPECT_EQ(tool["tools"][0]["changed_by"], change["user"]);
+  EXPECT_EQ(tool["tools"][0]["changed_ns"], change["time_ns"]);
+  for (const char* who : {"changed_by", "changed_ns"}) tool["tools"][0].erase(who);
   EXPECT_EQ(tool["tools"][0], (Json{{"number", 3}, {"length", 81.25}, {"length_wear", 0.0}, {"radius", 0.0}, {"radius_wear", -0.02}, {"name", ""}, {"pocket", 0}}));
   EXPECT_EQ(tool["next"], 4);
   EXPECT_EQ(client.outcome("offsets.set", {{"index", 1}, {"axis", "Y"}, {"value", -7.5}}), "");

@@ -19,8 +19,8 @@ class ToolLifeServices : public LocalMachine {
 TEST_F(ToolLifeServices, ARowIsSetReadAndWrittenDown) {
   ServiceClient client(path_);
   ASSERT_EQ(client.outcome("life.set", {{"number", 2}, {"group", 7}, {"tool", 31}, {"flags", 16}, {"life", 500}, {"used", 12}, {"length_offset", 3}}), "");
-  EXPECT_EQ(row(&client, 2), (Json{{"number", 2}, {"group", 7.0}, {"tool", 31.0}, {"flags", 16.0}, {"status", 0.0}, {"life", 500.0}, {"used", 12.0}, {"length_offset", 3.0}, {"radius_offset", 0.0}, {"auxiliary", 0.0}, {"counts", "mounts"}, {"state", "not used"}}));
   const Json change = client.call("changes", {{"count", 1}})["reply"]["changes"][0];
+  EXPECT_EQ(row(&client, 2), (Json{{"changed_by", change["user"]}, {"changed_ns", change["time_ns"]}, {"number", 2}, {"group", 7.0}, {"tool", 31.0}, {"flags", 16.0}, {"status", 0.0}, {"life", 500.0}, {"used", 12.0}, {"length_offset", 3.0}, {"radius_offset", 0.0}, {"auxiliary", 0.0}, {"counts", "mounts"}, {"state", "not used"}}));
   EXPECT_EQ(change["service"], "life.set");
   EXPECT_EQ(change["what"], "6 entries of tool life");
   ASSERT_EQ(client.outcome("life.set", {{"number", 2}, {"used", 13}}), "");
