@@ -110,22 +110,6 @@ void arc_of(const Section& section, Vec2 start, Piece* piece) {
   piece->sweep = section.sweep;
 }
 
-/// The two halves of a line or of an arc.
-void halve(const Piece& arc, Piece half[2]) {
-  if (!arc.round) {
-    half[0] = half[1] = arc;
-    half[0].to = half[1].from = 0.5 * (arc.from + arc.to);
-    return;
-  }
-  const double c = std::cos(arc.sweep / 2), s = std::sin(arc.sweep / 2), middle = mean_radius(arc);
-  const Vec2 out = unit(arc.from - arc.center);
-  const Vec2 point = arc.center + middle * Vec2{c * out.h - s * out.v, s * out.h + c * out.v};
-  half[0] = half[1] = arc;
-  half[0].sweep = half[1].sweep = arc.sweep / 2;
-  half[0].to = half[1].from = point;
-  half[0].radius_end = half[1].radius = middle;
-}
-
 /// The direction of travel at one of its ends.
 Vec2 tangent(const Piece& wall, Vec2 end) { return wall.round ? std::copysign(1.0, wall.sweep) * left_of(unit(end - wall.center)) : unit(wall.to - wall.from); }
 
@@ -160,6 +144,12 @@ Vec2 point_at(const Piece& piece, double part) {
 }
 
 double length_of(const Piece& piece) { return piece.round ? mean_radius(piece) * std::abs(piece.sweep) : norm(piece.to - piece.from); }
+
+/// The two halves of a line or of an arc.
+void halve(const Piece& piece, Piece half[2]) {
+  half[0] = without_stretch(piece, false, 0.5);
+  half[1] = without_stretch(piece, true, 0.5);
+}
 
 }  // namespace
 
