@@ -72,13 +72,9 @@ bool IdentityKeeper::begin(const Identity& identity, bool stands_by, Running* ru
 // Takes an identity whose files are in order, if this is its time.
 void IdentityKeeper::use(const Identity& identity) {
   const std::int64_t now_s = wall_s();
-  const std::string whose = "the identity of " + identity.subject + " (" + identity.folder + ") ";
-  switch (validity_of(identity, now_s + kEarlyS)) {
-    case Validity::kNotYet:
-      retry_s_ = std::min(identity.begins_s, now_s + kRetryS);
-      return fault(whose + "begins at " + utc_text(identity.begins_s));
-    case Validity::kEnded: return fault(whose + "has expired at " + utc_text(identity.ends_s));
-    case Validity::kValid: break;
+  if (const std::string why = invalid_text(identity, now_s + kEarlyS); !why.empty()) {
+    if (validity_of(identity, now_s + kEarlyS) == Validity::kNotYet) retry_s_ = std::min(identity.begins_s, now_s + kRetryS);
+    return fault(why);
   }
   // The plug-in has one set of rules for all participants of a process: with the next part beside the current one it would go on with those of the current one,
   // and end both when they end.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "dds/loopback_bind.hpp"
 #include "runtime/share/text.hpp"
@@ -190,10 +191,9 @@ bool secure(const std::string& folder, dds_qos_t* qos, std::string* error) {
   SecurityPlugins plugins;
   if (!read_identity(folder, &identity, error) || !find_plugins(&plugins, error)) return false;
   const std::int64_t now_s = rt::share::wall_ns() / 1'000'000'000;
-  switch (validity_of(identity, now_s)) {
-    case Validity::kNotYet: *error = "the identity of " + identity.subject + " (" + folder + ") begins at " + utc_text(identity.begins_s); return false;
-    case Validity::kEnded: *error = "the identity of " + identity.subject + " (" + folder + ") has expired at " + utc_text(identity.ends_s); return false;
-    case Validity::kValid: break;
+  if (std::string why = invalid_text(identity, now_s); !why.empty()) {
+    *error = std::move(why);
+    return false;
   }
   set_security(qos, identity, plugins);
   return true;

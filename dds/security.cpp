@@ -203,6 +203,16 @@ Validity validity_of(const Identity& identity, std::int64_t now_s) {
   return now_s < identity.ends_s ? Validity::kValid : Validity::kEnded;
 }
 
+std::string invalid_text(const Identity& identity, std::int64_t now_s) {
+  const std::string whose = "the identity of " + identity.subject + " (" + identity.folder + ") ";
+  switch (validity_of(identity, now_s)) {
+    case Validity::kNotYet: return whose + "begins at " + utc_text(identity.begins_s);
+    case Validity::kEnded: return whose + "has expired at " + utc_text(identity.ends_s);
+    case Validity::kValid: break;
+  }
+  return "";
+}
+
 bool read_identity(const std::string& folder, Identity* identity, std::string* error) {
   *identity = {};
   identity->folder = folder;

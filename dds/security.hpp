@@ -23,6 +23,8 @@ struct Identity {
 
 enum class Validity { kNotYet, kValid, kEnded };
 Validity validity_of(const Identity& identity, std::int64_t now_s);
+// Why it cannot be used at this time, "" = it is valid.
+std::string invalid_text(const Identity& identity, std::int64_t now_s);
 
 // Reads and checks the identity in a folder, except for whether it is valid now. False with a sentence in *error that names the file.
 bool read_identity(const std::string& folder, Identity* identity, std::string* error);

@@ -7,7 +7,6 @@
 #include <memory>
 #include <thread>
 
-#include "dds/security.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/share/text.hpp"
 
@@ -42,10 +41,7 @@ ServiceCaller::Result ServiceCaller::open(const Access& access, const std::strin
   control_ = control;
   client_ = client;
   if (!access.security.empty()) {
-    Identity identity;
-    if (!read_identity(access.security, &identity, error)) return Result::kNobody;
-    identity_ = identity.subject;
-    ends_s_ = identity.ends_s;
+    if (!read_identity(access.security, &identity_.emplace(), error)) return Result::kNobody;
   }
   if (!participant_.open(access, error)) return Result::kNobody;
   replies_ = make_reader(participant_.get(), Topic::kServiceReply, control + "/" + client, error);
@@ -59,8 +55,9 @@ ServiceCaller::Result ServiceCaller::open(const Access& access, const std::strin
 
 // From the end of its certificate on a participant is heard by nobody, and waits in vain.
 bool ServiceCaller::has_expired(std::string* error) const {
-  if (identity_.empty() || rt::share::wall_ns() / kSecond < ends_s_) return false;
-  *error = "the identity of " + identity_ + " (" + access_.security + ") has expired at " + utc_text(ends_s_);
+  const std::int64_t now_s = rt::share::wall_ns() / kSecond;
+  if (!identity_ || validity_of(*identity_, now_s) != Validity::kEnded) return false;
+  *error = invalid_text(*identity_, now_s);
   return true;
 }
 
@@ -127,7 +124,7 @@ ServiceCaller::Result ServiceCaller::next_update(std::string* body, std::string*
 // Waits for samples. False when the time is over, or the identity has ended.
 bool ServiceCaller::wait(std::int64_t until_ns) {
   std::int64_t rest = until_ns - now();
-  if (!identity_.empty()) rest = std::min(rest, ends_s_ * kSecond - rt::share::wall_ns());
+  if (identity_) rest = std::min(rest, identity_->ends_s * kSecond - rt::share::wall_ns());
   dds_attach_t triggered[1];
   return rest > 0 && dds_waitset_wait(waitset_, triggered, 1, rest) >= 0;
 }

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "dds/participant.hpp"
+#include "dds/security.hpp"
 #include "runtime/services/rights.hpp"
 
 namespace nc::dds {
@@ -48,8 +50,7 @@ class ServiceCaller {
 
   Access access_;
   std::string control_, client_;
-  std::string identity_;         // whose certificate it is, "" = without DDS Security
-  std::int64_t ends_s_ = 0;      // seconds since 1970, when it ends
+  std::optional<Identity> identity_;  // none without DDS Security
   Participant participant_;
   dds_entity_t replies_ = 0, waitset_ = 0;
   std::array<dds_entity_t, rt::services::kRightCount> writers_{};
