@@ -322,6 +322,9 @@ constexpr ReplyRow kLadderSwapReply[] = {{"text", "text", "how long it stays"},
                                          {"set_back[]", "text", "outputs and signals to the NC that no instruction writes any more: they have the value of the start again"}};
 constexpr ReplyRow kWatchReply[] = {{"watch", "whole", "number of the watch list, in its updates"}, {"devices[].name", "text", "name as in the request"}, {"devices[].type", "text", "bit, 16 bit or 32 bit"}};
 constexpr ReplyRow kTraceArmReply[] = {{"recording", "whole", "its number"}};
+// Of the rows of all tables.
+constexpr char kChangedBy[] = "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered";
+constexpr char kChangedNs[] = "time of day of that, ns since 1970; 0 = not known";
 constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the set"},
                                     {"tools[].length", "number", "mm"},
                                     {"tools[].length_wear", "number", "mm"},
@@ -329,8 +332,8 @@ constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the s
                                     {"tools[].radius_wear", "number", "mm"},
                                     {"tools[].pocket", "whole", "pocket of the magazine, 0 = in none"},
                                     {"tools[].name", "text", "its name, empty = none"},
-                                    {"tools[].changed_by", "text", "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered"},
-                                    {"tools[].changed_ns", "whole", "time of day of that, ns since 1970; 0 = not known"},
+                                    {"tools[].changed_by", "text", kChangedBy},
+                                    {"tools[].changed_ns", "whole", kChangedNs},
                                     {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kLivesReply[] = {{"lives[].number", "whole", "row of the table; the tools of a group are used in this order"},
                                     {"lives[].group", "number", "group of tools, 0 = no tool is registered here"},
@@ -344,21 +347,21 @@ constexpr ReplyRow kLivesReply[] = {{"lives[].number", "whole", "row of the tabl
                                     {"lives[].length_offset", "number", "number of its offset for the length"},
                                     {"lives[].radius_offset", "number", "number of its offset for the radius"},
                                     {"lives[].auxiliary", "number", "for the machine's own use"},
-                                    {"lives[].changed_by", "text", "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered"},
-                                    {"lives[].changed_ns", "whole", "time of day of that, ns since 1970; 0 = not known"},
+                                    {"lives[].changed_by", "text", kChangedBy},
+                                    {"lives[].changed_ns", "whole", kChangedNs},
                                     {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kOffsetsReply[] = {{"offsets[].system", "whole", "part system, from 1"},
                                       {"offsets[].index", "whole", "set of work offsets"},
                                       {"offsets[].axes[].name", "text", "name of the axis"},
                                       {"offsets[].axes[].value", "number", "mm or deg"},
-                                      {"offsets[].changed_by", "text", "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered"},
-                                      {"offsets[].changed_ns", "whole", "time of day of that, ns since 1970; 0 = not known"},
+                                      {"offsets[].changed_by", "text", kChangedBy},
+                                      {"offsets[].changed_ns", "whole", kChangedNs},
                                       {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kVariablesReply[] = {{"variables[].number", "whole", "number of the variable; those that are vacant are not in the list"},
                                         {"variables[].value", "number", "its value"},
                                         {"variables[].name", "text", "its name, empty = none"},
-                                        {"variables[].changed_by", "text", "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered"},
-                                        {"variables[].changed_ns", "whole", "time of day of that, ns since 1970; 0 = not known"},
+                                        {"variables[].changed_by", "text", kChangedBy},
+                                        {"variables[].changed_ns", "whole", kChangedNs},
                                         {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kParametersReply[] = {{"parameters[].key", "text", "number or name in the manual"},
                                          {"parameters[].system", "whole", "part system, from 1"},
@@ -369,8 +372,8 @@ constexpr ReplyRow kParametersReply[] = {{"parameters[].key", "text", "number or
                                          {"parameters[].values", "text", "unit and range, or the possible values; the one that holds while it is not set comes first"},
                                          {"parameters[].by_axis", "flag", "may differ from axis to axis"},
                                          {"parameters[].section", "text", "section of the manual"},
-                                         {"parameters[].changed_by", "text", "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered"},
-                                         {"parameters[].changed_ns", "whole", "time of day of that, ns since 1970; 0 = not known"},
+                                         {"parameters[].changed_by", "text", kChangedBy},
+                                         {"parameters[].changed_ns", "whole", kChangedNs},
                                          {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kProgramsReply[] = {{"programs[].name", "text", "name of the file"},
                                        {"programs[].size", "whole", "bytes"},
