@@ -17,7 +17,8 @@ not be left to it. Then the contour is mirrored, turned, scaled and run backward
 many may end in an alarm is bounded for each kind of contour.
 
 NC_CONTOURS=n   how many (default 10000, 200 under a sanitizer; a long run takes 1000000); NC_FIRST_SEED=n   the first of them; NC_EVERY=n   which
-of them are transformed (default 5: each fifth); NC_SHOW=1   prints the program of each that fails
+of them are transformed (default 5: each fifth); NC_EVERY_WITHOUT=n   which of them go without CONTOUR_CHECK, too (default 1: each that the tool
+reaches); NC_SHOW=1   prints the program of each that fails
 Exit 77: no shapely.
 """
 import copy
@@ -444,6 +445,7 @@ def main():
     show = os.environ.get("NC_SHOW")
     alarms, alarmed, wrong, kinds = {}, {}, {}, {}
     without = [0, 0]  # contours without CONTOUR_CHECK, and how many of them end in an alarm
+    every_without = int(os.environ.get("NC_EVERY_WITHOUT", "1"))
     batches = [range(from_seed, min(from_seed + 500, first + count)) for from_seed in range(first, first + count, 500)]
     for seeds in [ONCE_WRONG, *batches]:
         contours = [contour_of(seed) for seed in seeds]
@@ -461,7 +463,7 @@ def main():
                     print(f"seed {contour.seed} ({contour.kind}, {'inside' if contour.inside else 'outside'}, r {contour.radius}): {bad}")
                 if show:
                     print("\n".join(contour.blocks()))
-        judge_without_check(contours + [Noses(seed) for seed in seeds[::5]], without, wrong)
+        judge_without_check(contours[::every_without] + [Noses(seed) for seed in seeds[::5 * every_without]], without, wrong)
     tried = [contour_of(seed) for seed in range(first, first + count, int(os.environ.get("NC_EVERY", "5")))]
     results = run_all([c.blocks() for c in tried])
     for way in [*TRANSFORMS, "back"]:
