@@ -214,6 +214,29 @@ def burst(operator):
           f"{done} of them executed, the others refused because there were too many at once")
 
 
+def holds_find_room(operator, control):
+    """The control takes nothing for a moment, and the room for commands is full: a hold waits for room, and any other command is refused at once. The moment is shorter than a hold
+    waits, so where the computer is slow it is tried again."""
+    for _ in range(20):
+        operator.acks.take(N=2000)
+        control.send_signal(signal.SIGSTOP)
+        try:
+            refused, end = False, time.monotonic() + PATIENCE
+            while not refused and time.monotonic() < end:
+                for _ in range(50):
+                    operator.send(CommandKind.CMD_FEED_OVERRIDE, value=1.0)
+                refused = any(ack.sample_info.valid_data and ack.reason == AckReason.REASON_OVERFLOW for ack in operator.acks.take(N=500))
+            check(refused, "the room for commands is full")
+            operator.send(CommandKind.CMD_FEED_HOLD)
+            hold = operator.seq
+            time.sleep(0.02)
+        finally:
+            control.send_signal(signal.SIGCONT)
+        if operator.answer(hold).state == AckState.ACK_DONE:
+            return check(True, "a hold waits for room")
+    raise AssertionError("no hold has waited for room")
+
+
 def answers_not_taken(plant, operator):
     """A process that reads the answers to commands and stands still, and a client that is refused thousands of times: everybody else commands as before."""
     reader = subprocess.Popen([sys.executable, os.path.abspath(__file__), "reader", str(plant.domain), plant.share], stdout=subprocess.PIPE, text=True)
@@ -735,6 +758,7 @@ def main():
             other_clients(plant)
             commands(plant, watch, operator)
             burst(operator)
+            holds_find_room(operator, control)
             answers_not_taken(plant, operator)
             gateway = program(plant, watch, operator, gateway)
             until(lambda: answers(operator), "the new gateway answers")
