@@ -5,7 +5,7 @@
   bench/service_cost.py [BUILD_DIR] [PAIRS] [SECONDS] [POLICY]      default build/release, 5 pairs of runs of 6 s, other
 
 A control executes a program of lines and arcs on the real clock, in turn without clients, with ten clients that have a watch list of 16 devices every 20 ms each,
-and with ten clients that ask for the status as fast as they are answered. The figures of the scan are those of ncrtd's own summary; each run with clients is compared
+with the same where all these devices are forced, also in the run without clients, so that each update has 16 marks, and with ten clients that ask for the status as fast as they are answered. The figures of the scan are those of ncrtd's own summary; each run with clients is compared
 with the run without clients before it, and the medians of the differences are shown. The processor time is that of all threads of ncrtd.
 
 POLICY fifo gives the scan its real-time priority, as on a machine: other work of the computer then does not show in its 99 %. It needs root, or the limits of the unit.
@@ -110,7 +110,7 @@ def microseconds(text, name, share):
     return float(re.search(rf"{share} +([\d.]+)", line).group(1))
 
 
-def run(number, client):
+def run(number, client, forced):
     """One run: median and 99 % of the scan in us, share of a core, and what the clients have received in a second."""
     with tempfile.TemporaryDirectory() as folder:
         configuration(folder)
@@ -130,6 +130,8 @@ def run(number, client):
             operator.call("mode", mode="auto")
             operator.call("select", name="part.nc")
             operator.call("start")
+            for device in DEVICES if forced else []:
+                operator.call("force", device=device, value=1)
             begin, until, done = processor_seconds(server.pid), time.monotonic() + seconds, []
             threads = [threading.Thread(target=client, args=(path, until, done)) for _ in range(CLIENTS if client else 0)]
             for thread in threads:
@@ -153,12 +155,13 @@ def main():
         print(f"skipped: {ncrtd} is not there: build it first")
         return 77
     print(f"load of the computer at the beginning: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores; the scan has the policy {policy}")
-    kinds = {"ten watch lists at 50 Hz": watch, "ten clients that ask for the status": ask}
+    kinds = {"ten watch lists at 50 Hz": (watch, False), "ten watch lists at 50 Hz with 16 forced devices": (watch, True), "ten clients that ask for the status": (ask, False)}
     alone, added = [], {name: [] for name in kinds}
     for number in range(pairs):
-        for turn, (name, client) in enumerate(kinds.items()):
-            without, clients = run(4 * number + 2 * turn, None), run(4 * number + 2 * turn + 1, client)
-            alone.append(without)
+        for turn, (name, (client, forced)) in enumerate(kinds.items()):
+            without, clients = run(6 * number + 2 * turn, None, forced), run(6 * number + 2 * turn + 1, client, forced)
+            if not forced:
+                alone.append(without)
             added[name].append([b - a for a, b in zip(without, clients)])
     median = [statistics.median(column) for column in zip(*alone)]
     print(f"without clients: scan {median[0]:.2f} us, 99 % {median[1]:.2f} us; {median[2]:.1f} % of a core")
