@@ -2,6 +2,9 @@
 // Users that hold connections: others still get in, and whoever has control keeps it.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "services/local_machine.hpp"
@@ -109,6 +112,43 @@ TEST_F(PlacesOfUsers, WhoLosesItsPlaceIsToldSo) {
   EXPECT_NE(last["text"].get<std::string>().find("another user needs its place"), std::string::npos);
   EXPECT_TRUE(held[0]->receive().is_null());
   EXPECT_EQ(held[1]->outcome("status"), "");
+}
+
+// The feeder does something for another client meanwhile, so that the requests of all stand in the queue before the second one is executed. In which order they were is what their changes say.
+TEST_F(PlacesOfUsers, AUserWaitsForOneRequestOfEachOtherUser) {
+  constexpr uid_t kMany = kFirst, kSecond = kFirst + 1, kThird = kFirst + 2;
+  constexpr unsigned kClients = 6, kRequests = 7;
+  std::atomic<bool> goes_on{false}, stands{false};
+  std::thread busy([&] {
+    (void)runtime_->look([&](nc_control*) {
+      stands = true;
+      while (!goes_on) usleep(1000);
+    });
+  });
+  while (!stands) usleep(1000);
+  Clients held;
+  unsigned tool = 0;
+  const auto fill = [&](uid_t user, unsigned requests) {
+    held.push_back(as(user, {Right::kSetUp}));
+    ServiceClient* const client = held.back().get();
+    for (unsigned n = 0; n < requests; ++n) ASSERT_TRUE(client->ask(100 + n, "tools.set", {{"number", ++tool}, {"length", 1}}));
+    ASSERT_TRUE(client->ask(1, "rights"));  // is answered when those before it stand in the queue
+    ASSERT_EQ(client->receive()["id"], 1);
+  };
+  for (unsigned n = 0; n < kClients; ++n) fill(kMany, kRequests);
+  fill(kSecond, 2);
+  fill(kThird, 1);
+  goes_on = true;
+  busy.join();
+  for (unsigned n = 0; n < held.size(); ++n)
+    for (unsigned left = n < kClients ? kRequests : held.size() - n; left > 0; --left) ASSERT_EQ(held[n]->receive()["ok"], true);
+  const Json changes = held[0]->call("changes")["reply"]["changes"];
+  ASSERT_EQ(changes.size(), tool);
+  std::vector<std::string> users;
+  for (auto change = changes.rbegin(); change != changes.rend(); ++change) users.push_back((*change)["user"]);
+  const std::vector<std::string> first(users.begin(), users.begin() + 5);
+  const std::string many = std::to_string(kMany), second = std::to_string(kSecond), third = std::to_string(kThird);
+  EXPECT_EQ(first, (std::vector<std::string>{many, second, third, many, second})) << "the first one was under way";
 }
 
 }  // namespace
