@@ -48,7 +48,7 @@ bool service_frame(const ServiceRequest& request, std::uint64_t id, std::int64_t
   if (!rt::services::read_json(args, &read, &wrong)) return bad(Refused::kMalformed, "the text of args " + wrong);
   if (!read.is_object()) return bad(Refused::kMalformed, "args must be an object in JSON");
   const ServiceRow* row = rt::services::find_service(request.service);
-  if (gate.rights.none() || (row != nullptr && !row->allows(gate.rights))) return bad(Refused::kNoRight, gate.why);
+  if (gate.rights.none() || (row != nullptr && !gate.rights.has(row->right))) return bad(Refused::kNoRight, gate.why);
   const bool command = row != nullptr && row->lane == Lane::kCommand;
   const std::int64_t age_ns = wall_ns - std::clamp(request.sent_ns, wall_ns - kMostAgeNs, wall_ns + kMostAgeNs);  // any time may stand in a sample
   if (command && age_ns < kMostAhead) return bad(Refused::kLate, "the clock of the client is ahead by " + std::to_string(-age_ns / kMs) + " ms");

@@ -4,13 +4,18 @@
 
 #include <algorithm>
 
+#include "runtime/programs/encoding.hpp"
 #include "runtime/retain/place.hpp"
+#include "runtime/share/program_table.hpp"
+#include "runtime/share/text.hpp"
 
 namespace nc::rt {
 namespace {
 
 // Between two calls a reset of an endless GOTO is seen, and a hold while something is planned: one takes some milliseconds at most.
 constexpr std::uint32_t kBudget = 256;
+constexpr auto kWritersEvery = std::chrono::seconds(1);
+constexpr std::size_t kMostNameBytes = 127;
 constexpr unsigned kCallsPerStep = 8;
 constexpr std::chrono::milliseconds kLongRead{100};  // a search for a number goes through gigabytes of a program in one step
 
@@ -78,6 +83,7 @@ void Feeder::step() {
   follow_ladder();
   follow_outputs();
   leave_kept();
+  note_writers_in_time();
   CommandAnswer answered[kCommands];
   unsigned answered_count = 0;
   Command command;
@@ -127,6 +133,7 @@ void Feeder::restore_parts() {
       system.clear();
       continue;
     }
+    if (ran_.any()) note_writers();
     const nc_status status = nc_->select(s, system.part_file);
     if (status == NC_E_STATE) continue;  // not yet: the next step tries again
     restart_[s].lose("the program was selected again");
@@ -192,12 +199,52 @@ nc_status Feeder::read_again(std::uint32_t but, const char* why) {
 void Feeder::leave_kept() {
   for (KeptCopy& copy : kept_) {
     if (!copy.wanted.load(std::memory_order_acquire)) continue;
-    std::string bytes = &copy == &kept_[kVariables] ? kept_variables() : &copy == &kept_[kTables] ? kept_tables() : &copy == &kept_[kStops] ? stop_bytes() : place_bytes();
+    std::string bytes = copy_of(static_cast<Kept>(&copy - kept_));
     copy.wanted.store(false, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     copy.bytes = std::move(bytes);
     copy.ready = true;
   }
+}
+
+// Who has written what is noted with the values that are kept: behind a power cut each value is then the one that its writer is noted with.
+std::string Feeder::copy_of(Kept what) {
+  if (what == kStops) return stop_bytes();
+  if (what == kPlace) return place_bytes();
+  if (writers_ != nullptr) take_events();
+  std::string variables = kept_variables(), tables = writers_ != nullptr || what == kTables ? kept_tables() : "";
+  if (writers_ != nullptr) {
+    note_writers_of(variables, tables);
+    writers_->keep(what == kVariables);
+  }
+  return what == kVariables ? std::move(variables) : std::move(tables);
+}
+
+// As it is shown, on one line.
+std::string Feeder::writer_name(unsigned system) const {
+  const System& of = system_[system];
+  if (of.mdi) return "MDI blocks";
+  if (!of.selected) return "";
+  std::string name = valid_utf8(share::file_name(nc_->program_name(of.file)));
+  std::replace_if(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return "program " + std::string(cut_utf8(name, kMostNameBytes));
+}
+
+// What was executed since the last look has written what has changed since then. To be called before somebody else can write: what is read ahead of him is not executed yet.
+void Feeder::note_writers() {
+  if (writers_ == nullptr) return;
+  take_events();
+  note_writers_of(kept_variables(), kept_tables());
+}
+
+void Feeder::note_writers_of(const std::string& variables, const std::string& tables) {
+  writers_->look(variables, tables, ran_, share::wall_ns());
+  ran_ = {};
+  writers_noted_ = std::chrono::steady_clock::now();
+}
+
+void Feeder::note_writers_in_time() {
+  if (writers_ != nullptr && step_began_ - writers_noted_ >= kWritersEvery) note_writers();
 }
 
 std::string Feeder::kept_variables() {
@@ -322,6 +369,7 @@ Answer Feeder::select(const Command& command) {
     if (!load(name, &file, &error)) return refuse(Answer::kNotLoaded, error);
   }
   if (!claim(command.ticket)) return Answer::kNoAnswer;
+  note_writers();
   scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step, because the program in the control changes now
   if (const nc_status status = nc_->select(system, file); status < 0)
     return refuse(Answer::kRefusedByControl, status_text(status));
@@ -350,6 +398,7 @@ Answer Feeder::load_mdi(const Command& command) {
     text = std::move(mdi_text_);
     mdi_text_.clear();
   }
+  note_writers();
   scan_->set_loaded(Scan::kNothingLoaded);
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
     return refuse(Answer::kRefusedByControl,
@@ -407,6 +456,7 @@ void Feeder::follow_mdi() {
 
 Answer Feeder::look(const Command& command) {
   if (!claim(command.ticket)) return Answer::kNoAnswer;
+  if (writers_ != nullptr && writers_->take_asked()) note_writers();
   ControlJob job;
   {
     const std::lock_guard lock(mutex_);
@@ -422,7 +472,9 @@ Answer Feeder::change(const Command& command) {
   scan_->set_loaded(Scan::kNothingLoaded);
   if (read_again() == NC_E_STATE) return Answer::kNotWhileRunning;
   put_back_searched();
+  note_writers();
   const Answer answer = look(command);
+  if (writers_ != nullptr) writers_->look_behind_change(kept_variables(), kept_tables());
   (void)read_again();  // cannot be refused now: nothing could be started since the first time
   return answer;
 }
@@ -442,6 +494,7 @@ void Feeder::complete_reset() {
   for (unsigned s = 0; s < systems_; ++s) {
     if (nc_->reset(s) == NC_E_STATE) return;  // not yet: the next step tries again
     restart_[s].reset();
+    take_events();  // with the names of those that have executed them
     if (system_[s].mdi) system_[s].clear();
     system_[s].ended = system_[s].alarmed = false;
   }
@@ -462,6 +515,7 @@ void Feeder::rewind_ended() {
   for (unsigned s = 0; s < systems_; ++s) {
     System& system = system_[s];
     if (!system.ended || seen_.system[s].nc.state != NC_STATE_IDLE || scan_->reset_waits()) continue;
+    if (ran_.any()) note_writers();
     const bool ok = !system.alarmed;
     if (system.mdi || !system.selected) {
       system.clear();
@@ -496,6 +550,7 @@ void Feeder::take_events() {
     std::uint64_t lost = 0;
     while (nc_->poll_event(s, &event, &lost) == NC_OK) {
       ++count;
+      if (writers_ != nullptr && ran_.by[s].empty()) ran_.by[s] = writer_name(s);
       dropped = std::max(dropped, lost);
       if (sink_ != nullptr) sink_->executed(s, event);
       if (event.kind == NC_ITEM_ALARM) system_[s].alarmed = true;

@@ -18,6 +18,7 @@
 #include "runtime/command.hpp"
 #include "runtime/restart/desk.hpp"
 #include "runtime/retain/program_place.hpp"
+#include "runtime/retain/writers.hpp"
 #include "runtime/scan.hpp"
 #include "runtime/start_gate.hpp"
 
@@ -153,6 +154,10 @@ class Feeder {
   void set_program_hash(ProgramHash hash) { hash_ = std::move(hash); }
   void set_start_gate(StartGate* gate) { gate_ = gate; }
   void set_printer(Printer printer) { printer_ = std::move(printer); }
+  // Who has written what is noted there. Null = nobody wants to know.
+  void set_writers(WriterTable* writers) { writers_ = writers; }
+  // Notes who has written what up to now. Feeder thread, or when it has ended.
+  void note_writers();
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
     scan_->record_positions();
@@ -189,6 +194,10 @@ class Feeder {
   bool claim(std::uint64_t ticket);
   Answer refuse(Answer answer, std::string why);
   void leave_kept();
+  void note_writers_in_time();
+  void note_writers_of(const std::string& variables, const std::string& tables);
+  std::string copy_of(Kept what);
+  std::string writer_name(unsigned system) const;
   void follow_ladder();
   void follow_outputs();
   void complete_reset();
@@ -291,6 +300,9 @@ class Feeder {
     std::string bytes;
   };
   KeptCopy kept_[kKeptCount];
+  WriterTable* writers_ = nullptr;
+  WriterTable::Ran ran_;  // since the last look at the writers
+  std::chrono::steady_clock::time_point writers_noted_{};
 };
 
 }  // namespace nc::rt

@@ -209,6 +209,9 @@ bool Runtime::start(std::string* error) {
         else scan_->end_retain_trouble(detail);
       },
       [this] { return scan_->retain_loss_seen(); }, [this](std::uint32_t request, SaveResult result) { scan_->save_finished(request, result); });
+  nc_variable_range local{};
+  if (control_ != nullptr && config_.services.enabled && nc_variable_kind_get(nc_control_dialect(control_), NC_VARIABLES_LOCAL, &local) == NC_OK) writers_ = std::make_unique<WriterTable>(local);
+  feeder_->set_writers(writers_.get());
   if (own_ladder_ != nullptr && !config_.retain_path().empty())
     keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
   if (control_ != nullptr && !config_.variables_path().empty())
@@ -217,6 +220,7 @@ bool Runtime::start(std::string* error) {
     keeper_->add(2, std::make_unique<TableData>(control_, config_.nc, feeder_.get()), config_.offsets_path());
   if (!config_.offsets_path().empty())
     keeper_->add(5, std::make_unique<ToolLabelData>(&tool_labels_, config_.nc.tool_offsets, configured_labels(config_)), config_.offsets_path() + ".tools");
+  if (writers_ != nullptr && !config_.changes_path().empty()) keeper_->add(kRetainedData, std::make_unique<WriterData>(writers_.get()), config_.changes_path() + ".programs");
   PlaceData* places = nullptr;
   if (control_ != nullptr && !config_.place_path().empty()) {
     auto data = std::make_unique<PlaceData>(feeder_.get(), scan_.get());
@@ -290,6 +294,7 @@ void Runtime::feeder_thread() {
     if (read(wake_fd_, &count, sizeof count) < 0) continue;  // the counter was 0 already
   }
   feeder_->step();  // takes the events of the last scans
+  feeder_->note_writers();
 }
 
 void Runtime::wake_feeder() {

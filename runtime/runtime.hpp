@@ -135,6 +135,8 @@ class Runtime {
   std::string forced_name(std::uint32_t number) const;
 
   // ---- anyone ----
+  // Who has written what in the tables; null on virtual time and without services. From the start on.
+  WriterTable* writers() const { return writers_.get(); }
   Snapshot snapshot() const { return scan_->snapshot(); }
   FeederInfo info() const { return feeder_->info(); }
   const ScanStatistics& statistics() const { return scan_->statistics(); }
@@ -166,6 +168,7 @@ class Runtime {
   std::unique_ptr<SignalBoard> board_;
   std::unique_ptr<trace::TraceTap> trace_;
   ToolLabelTable tool_labels_;
+  std::unique_ptr<WriterTable> writers_;  // in real time, with services
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
   nc_tap tap_told_[NC_MAX_SYSTEMS] = {};  // that the keeper has been told of
   std::uint32_t save_told_ = 0;           // request to write at once that the keeper has been told of

@@ -25,7 +25,7 @@ void RetainKeeper::tell(Entry* entry, RetainTrouble what, const std::string& why
     const std::lock_guard lock(mutex_);
     entry->trouble = why;
   }
-  trouble_(retain_detail(entry->number, what), true);
+  if (entry->data->is_vital()) trouble_(retain_detail(entry->number, what), true);
   if (warnings != nullptr) warnings->push_back("retained data: " + why);
   else std::fprintf(stderr, "warning: retained data: %s\n", why.c_str());
 }
@@ -53,6 +53,10 @@ void RetainKeeper::restore(Entry* entry, std::vector<std::string>* warnings) {
       tell(entry, RetainTrouble::kLost, lost + entry->store->path() + entry->data->why_refused(bytes), warnings);
     else if (loaded == RetainStore::Loaded::kOlder)
       tell(entry, RetainTrouble::kOlder, name + " are those of the last time but one: " + error, warnings);
+  }
+  if (entry->unseen && !entry->data->is_vital()) {
+    entry->unseen = false;
+    entry->store->set_aside();
   }
   if (entry->unseen) return;
   for (const std::string& remark : entry->data->remarks()) warnings->push_back("retained data: " + remark);
@@ -158,7 +162,7 @@ bool RetainKeeper::save_all() {
 void RetainKeeper::answer(std::uint32_t request) {
   if (!finished_) return;
   bool all = true;
-  for (const auto& entry : entries_) all &= entry->usable && !entry->unseen && !entry->failed;
+  for (const auto& entry : entries_) all &= !entry->data->is_vital() || (entry->usable && !entry->unseen && !entry->failed);
   finished_(request, entries_.empty() ? SaveResult::kNothingKept : all ? SaveResult::kSaved : SaveResult::kNotSaved);
 }
 
@@ -178,7 +182,7 @@ void RetainKeeper::save(Entry* entry, const std::string& bytes) {
   std::string error;
   if (entry->store->save(bytes, &error)) {
     entry->saved = bytes;
-    if (entry->failed) trouble_(retain_detail(entry->number, RetainTrouble::kUnwritable), false);
+    if (entry->failed && entry->data->is_vital()) trouble_(retain_detail(entry->number, RetainTrouble::kUnwritable), false);
     entry->failed = false;
     return;
   }

@@ -13,6 +13,9 @@ class RetainedData {
   virtual const char* name() const = 0;  // "devices of the ladder"
   virtual const char* start() const = 0; // the values that they have without a file, as part of a sentence: "are 0"
 
+  // Whether a machine must not start as if nothing had happened when they are lost: then it is an alarm, and else only a sentence.
+  virtual bool is_vital() const { return true; }
+
   // ---- before the first scan and after the last one ----
   // False when the bytes make no sense; nothing has changed then.
   virtual bool restore(const std::string& bytes) = 0;

@@ -8,6 +8,7 @@
 #include "runtime/retain/variables.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -41,6 +42,12 @@ bool get(const std::string& bytes, std::size_t* at, T* value) {
   std::memcpy(value, bytes.data() + *at, sizeof *value);
   *at += sizeof *value;
   return true;
+}
+
+// The shortest text that gives the number when it is read back.
+std::string plain_number(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 struct Variable {
@@ -201,6 +208,24 @@ std::vector<VariableChange> changed_variables(const std::string& before, const s
     if (number >> kSystemShift == system && (vacant || now->second != value)) changes.push_back({number & kNumber, value, vacant ? 0 : now->second, vacant});
   }
   return changes;
+}
+
+std::vector<VariableWrite> written_variables(const std::string& before, const std::string& after, nc_variable_range local) {
+  ByNumber was, left;
+  std::vector<VariableWrite> writes;
+  if (!decode(before, &was) || !decode(after, &left)) return writes;
+  const auto write = [&](std::uint32_t number, std::string value) {
+    if (!holds(local, number & kNumber)) writes.push_back({"variable " + std::to_string(number >> kSystemShift) + " " + std::to_string(number & kNumber), std::move(value)});
+  };
+  for (const auto& [number, value] : left.value)
+    if (const auto old = was.value.find(number); old == was.value.end() || old->second != value) write(number, plain_number(value));
+  for (const auto& [number, value] : was.value)
+    if (left.value.count(number) == 0) write(number, "");
+  for (const auto& [number, name] : left.name)
+    if (const auto old = was.name.find(number); old == was.name.end() || old->second != name) writes.push_back({"name " + std::to_string(number), name});
+  for (const auto& [number, name] : was.name)
+    if (left.name.count(number) == 0) writes.push_back({"name " + std::to_string(number), ""});
+  return writes;
 }
 
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept, std::vector<std::string>* left_out) {

@@ -37,6 +37,12 @@ struct VariableChange {
 };
 std::vector<VariableChange> changed_variables(const std::string& before, const std::string& after, unsigned system);
 
+// What has changed from `before` to `after`, names too, local variables left out: "variable 0 501" (part system, number) with the new value, "" = vacant; "name 501" with the new name.
+struct VariableWrite {
+  std::string key, value;
+};
+std::vector<VariableWrite> written_variables(const std::string& before, const std::string& after, nc_variable_range local);
+
 // M700 13.5.5: local variables belong to the program that is being read, and are kept nowhere.
 bool is_local_variable(const nc_control* control, std::uint32_t number);
 

@@ -16,9 +16,13 @@ std::string text_of_value(const Json& value) { return value.is_string() ? value.
 // What is found of the values of a row, one after the other.
 class RowChange {
  public:
-  explicit RowChange(const ChangeLog& log) : log_(log) {}
+  RowChange(const ChangeLog& log, const WriterTable* writers) : log_(log), writers_(writers) {}
 
   void look(const TablePlace& place, const Json& value) {
+    // What a program has written goes before: a change through the services ends it.
+    Written written;
+    const bool known = writers_ != nullptr && writers_->find(retained_key(place), &written);
+    if (known && same_value(place, text_of_value(value), written.value)) return take(written.by, written.time_ns);
     const ChangeLog::Last* last = log_.last_change_of(place);
     const bool stands = last != nullptr && same_value(place, text_of_value(value), last->after);
     // Part systems may share a variable, which is then changed in one of them.
@@ -27,11 +31,11 @@ class RowChange {
         TablePlace other = place;
         other.system = s;
         const ChangeLog::Last* const there = log_.last_change_of(other);
-        if (there != nullptr && same_value(other, text_of_value(value), there->after)) return take(*there);
+        if (there != nullptr && same_value(other, text_of_value(value), there->after)) return take(there->user, there->time_ns);
       }
-    if (last == nullptr) return;
+    if (last == nullptr && !known) return;
     if (!stands) by_program_ = true;
-    else take(*last);
+    else take(last->user, last->time_ns);
   }
   void add_to(Json* row) const {
     (*row)["changed_by"] = by_program_ ? kByProgram : user_;
@@ -39,12 +43,13 @@ class RowChange {
   }
 
  private:
-  void take(const ChangeLog::Last& last) {
-    if (last.time_ns < time_ns_) return;
-    user_ = last.user;
-    time_ns_ = last.time_ns;
+  void take(const std::string& user, std::int64_t time_ns) {
+    if (time_ns < time_ns_) return;
+    user_ = user;
+    time_ns_ = time_ns;
   }
   const ChangeLog& log_;
+  const WriterTable* const writers_;
   std::string user_;
   std::int64_t time_ns_ = 0;
   bool by_program_ = false;
@@ -93,10 +98,10 @@ void look_at_parameter(const Json& row, RowChange* found) {
 
 }  // namespace
 
-void add_last_changes(const ChangeLog& log, Service list, unsigned system, Json* reply) {
+void add_last_changes(const ChangeLog& log, const WriterTable* writers, Service list, unsigned system, Json* reply) {
   const char* const name = list == Service::kTools ? "tools" : list == Service::kLives ? "lives" : list == Service::kOffsets ? "offsets" : list == Service::kVariables ? "variables" : "parameters";
   for (Json& row : (*reply)[name]) {
-    RowChange found(log);
+    RowChange found(log, writers);
     switch (list) {
       case Service::kTools:
         look_at_columns(ListTable::kTool, kToolColumns, row, &found);

@@ -306,6 +306,11 @@ void LocalServer::take(Connection* connection, const std::string& frame) {
   Outcome outcome;
   const bool was_ahead = connection->ahead.take(&job.arrival);
   if (!decode_call(frame, &job.call, &outcome)) return put(connection, encode_reply(job.call.id, outcome));
+  if (job.call.right) {
+    RightSet came = connection->session->came.load(std::memory_order_relaxed);
+    came.add(*job.call.right);
+    connection->session->came.store(came, std::memory_order_relaxed);
+  }
   const Session& session = *connection->session;
   if (const std::string lacks = Services::lack(session, job.call); !lacks.empty()) {
     deny(connection->session, job.call);

@@ -165,7 +165,7 @@ constexpr ReplyRow kRightsReply[] = {{"client", "text", "the name under which th
 constexpr ReplyRow kLimitReply[] = {{"client", "text", "the name under which this connection may have control from now on"}, {"rights[]", "text", "what it still has"}};
 constexpr ReplyRow kServicesReply[] = {{"services[].name", "text", "name of the service"},
                                        {"services[].right", "text", "the right that it needs"},
-                                       {"services[].or_right", "text", "a right that is enough in its place, empty = none"},
+                                       {"services[].and_right", "text", "a right that it needs besides, empty = none"},
                                        {"services[].meaning", "text", "what it does"},
                                        {"services[].request[].name", "text", "member of `args`"},
                                        {"services[].request[].type", "text", "number, whole, flag, text, name, data or list"},
@@ -323,7 +323,7 @@ constexpr ReplyRow kLadderSwapReply[] = {{"text", "text", "how long it stays"},
 constexpr ReplyRow kWatchReply[] = {{"watch", "whole", "number of the watch list, in its updates"}, {"devices[].name", "text", "name as in the request"}, {"devices[].type", "text", "bit, 16 bit or 32 bit"}};
 constexpr ReplyRow kTraceArmReply[] = {{"recording", "whole", "its number"}};
 // Of the rows of all tables.
-constexpr char kChangedBy[] = "who has changed it last through the services, \"program\" when a program or the machine has written something else since; empty = nobody that is remembered";
+constexpr char kChangedBy[] = "who has changed it last: a user, \"program part.nc\", \"MDI blocks\", \"machine\", or \"program\" when it is not known which program has; empty = nobody that is remembered";
 constexpr char kChangedNs[] = "time of day of that, ns since 1970; 0 = not known";
 constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the set"},
                                     {"tools[].length", "number", "mm"},
@@ -469,8 +469,8 @@ constexpr ServiceRow kRows[] = {
     {Service::kRestartStatus, "restart.status", Right::kView, Lane::kData, kNo, kSystemOnly, kRestartReply, "a program that is begun inside: the place, the recovery list, and how far the operator is"},
 
     {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
-     "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well", Right::kMaintain},
-    {Service::kReleaseControl, "control.release", Right::kOperate, Lane::kCommand, RequestKind::kReleaseControl, {}, kDoneReply, "gives control back; jogs of the client end", Right::kMaintain},
+     "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
+    {Service::kReleaseControl, "control.release", Right::kOperate, Lane::kCommand, RequestKind::kReleaseControl, {}, kDoneReply, "gives control back; jogs of the client end"},
     {Service::kStart, "start", Right::kOperate, Lane::kCommand, RequestKind::kCycleStart, kCommandOnly, kDoneReply, "cycle start; the reply comes when the program runs"},
     {Service::kHold, "hold", Right::kOperate, Lane::kCommand, RequestKind::kFeedHold, kCommandOnly, kDoneReply, "feed hold; the reply comes when the axes stand. It needs no control. In manual mode what moves by hand comes to rest and needs a new press"},
     {Service::kReset, "reset", Right::kOperate, Lane::kCommand, RequestKind::kReset, kLifespanOnly, kDoneReply, "reset of all part systems; the reply comes when it is done"},
@@ -508,10 +508,10 @@ constexpr ServiceRow kRows[] = {
     {Service::kProgramRename, "programs.rename", Right::kSetUp, Lane::kData, kNo, kRenameArguments, kDoneReply, "gives a program another name that is free"},
     {Service::kProgramDelete, "programs.delete", Right::kSetUp, Lane::kData, kNo, kFileOnly, kDoneReply, "deletes a program"},
 
-    {Service::kForce, "force", Right::kMaintain, Lane::kCommand, RequestKind::kForce, kForceArguments, kDoneReply, "holds a device of the ladder at a value until it is released"},
-    {Service::kRelease, "release", Right::kMaintain, Lane::kCommand, RequestKind::kReleaseForce, kReleaseArguments, kDoneReply, "lets a device go; without one, all of them"},
+    {Service::kForce, "force", Right::kMaintain, Lane::kCommand, RequestKind::kForce, kForceArguments, kDoneReply, "holds a device of the ladder at a value until it is released", Right::kOperate},
+    {Service::kRelease, "release", Right::kMaintain, Lane::kCommand, RequestKind::kReleaseForce, kReleaseArguments, kDoneReply, "lets a device go; without one, all of them", Right::kOperate},
     {Service::kWriteDevice, "ladder.write", Right::kMaintain, Lane::kCommand, RequestKind::kWriteDevice, kForceArguments, kDoneReply,
-     "gives a device of the ladder a value once, before the next run of its program; what the machine or the NC writes in each scan is refused"},
+     "gives a device of the ladder a value once, before the next run of its program; what the machine or the NC writes in each scan is refused", Right::kOperate},
     {Service::kSetParameter, "parameters.set", Right::kMaintain, Lane::kData, kNo, kParameterArguments, kDoneReply, "sets a parameter"},
     {Service::kParameterImport, "parameters.import", Right::kMaintain, Lane::kData, kNo, kParameterImportArguments, kDoneReply,
      "sets the parameters that the sections name and leaves the others as they are. Every value is tried on a control apart before the first one is set, and it is one change"},
@@ -521,7 +521,7 @@ constexpr ServiceRow kRows[] = {
      "records the values of signals in each scan, from the next one on, or from so many before a trigger on. The recording before it is forgotten; one that has not ended is busy"},
     {Service::kTraceStop, "trace.stop", Right::kMaintain, Lane::kData, kNo, {}, kDoneReply, "ends the recording; what it has can be read"},
     {Service::kLadderSwap, "ladder.swap", Right::kMaintain, Lane::kData, kNo, kSwapArguments, kLadderSwapReply,
-     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; refused with lines and reasons when it cannot, and while another client has control. It stays until ncrtd ends: each start takes the file of the configuration"},
+     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; refused with lines and reasons when it cannot, and while another client has control. It stays until ncrtd ends: each start takes the file of the configuration", Right::kOperate},
 };
 static_assert(std::size(kRows) == kServiceRows);
 
@@ -559,7 +559,7 @@ const char* topic_of(Right right) {
   return "?";
 }
 
-std::string rights_text(const ServiceRow& row) { return std::string(right_name(row.right)) + (row.or_right ? std::string(" or ") + right_name(*row.or_right) : ""); }
+std::string rights_text(const ServiceRow& row) { return std::string(right_name(row.right)) + (row.and_right ? std::string(" and ") + right_name(*row.and_right) : ""); }
 
 std::span<const ServiceRow> service_table() { return kRows; }
 

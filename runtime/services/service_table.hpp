@@ -72,14 +72,13 @@ struct ServiceRow {
   std::span<const Wanted> request;
   std::span<const ReplyRow> reply;
   const char* meaning;
-  std::optional<Right> or_right = {};  // is enough in place of `right`
+  std::optional<Right> and_right = {};  // is needed besides `right`: what the ladder is told to do can move the machine
 
-  bool allows(RightSet rights) const { return rights.has(right) || (or_right && rights.has(*or_right)); }
-  bool is_of(Right which) const { return which == right || which == or_right; }
+  bool allows(RightSet rights) const { return rights.has(right) && (!and_right || rights.has(*and_right)); }
   // What is said of the command that it gives; nothing of a service that gives none.
   const share::RequestRow& of_command() const { return share::request_row(command); }
 };
-// The rights of which one is needed, in words: "operate or maintain".
+// The rights that are needed, in words: "maintain and operate".
 std::string rights_text(const ServiceRow& row);
 
 // The topic on which a request may use the services of this right, and those of view.

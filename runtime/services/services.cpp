@@ -112,9 +112,12 @@ std::string Services::lack(const Session& session, const Call& call) {
   const ServiceRow& row = *call.row;
   const std::string needs = std::string(row.name) + " needs the right to " + rights_text(row);
   if (!row.allows(session.rights)) return needs;
+  if (!call.right) return "";
   RightSet came;
-  if (call.right) came.add(*call.right);
-  return !call.right || row.allows(came.both(session.rights)) ? "" : needs + ", and this request has come with that to " + right_name(*call.right);
+  came.add(*call.right);
+  if (!came.has(row.right)) return needs + ", and this request has come with that to " + right_name(*call.right);
+  const bool shown = !row.and_right || session.came.load(std::memory_order_relaxed).has(*row.and_right);
+  return shown ? "" : needs + ", and no request of this client has come with that to " + right_name(*row.and_right);
 }
 
 Outcome Services::limit(const Session& session, const Call& call, Session* after) {
@@ -132,6 +135,7 @@ Outcome Services::limit(const Session& session, const Call& call, Session* after
   after->owner = session.owner;
   after->sequence = session.sequence;
   after->rights = session.rights.both(kept);
+  after->came.store(session.came.load(std::memory_order_relaxed).both(after->rights), std::memory_order_relaxed);
   after->may_speak = session.may_speak && session.behalf.empty();
   if (!call.has(Field::kBehalf)) return Outcome::with(rights_json(*after));
   const std::string& behalf = call.words(Field::kBehalf);
@@ -300,9 +304,12 @@ Outcome Services::list_changes(const Call& call) {
   return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500)), of));
 }
 
-Outcome Services::with_last_changes(Outcome outcome, const Call& call) const {
+// A list of a table with who has changed its rows.
+Outcome Services::list(Outcome (*read)(Runtime*, const Call&), const Call& call) const {
+  if (runtime_.writers() != nullptr) runtime_.writers()->ask();  // what programs have written up to now, and not up to a second ago
+  Outcome outcome = read(&runtime_, call);
   unsigned system = 0;
-  if (outcome.ok && system_of(runtime_, call, &system)) add_last_changes(log_, call.row->service, system, &outcome.reply);
+  if (outcome.ok && system_of(runtime_, call, &system)) add_last_changes(log_, runtime_.writers(), call.row->service, system, &outcome.reply);
   return outcome;
 }
 
@@ -313,11 +320,11 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kHistory: return list_history(history_, call);
     case Service::kCounters: return list_counters(history_);
     case Service::kProgramTimes: return list_program_times(history_, call);
-    case Service::kTools: return with_last_changes(list_tools(&runtime_, call), call);
-    case Service::kLives: return with_last_changes(list_lives(&runtime_, call), call);
-    case Service::kOffsets: return with_last_changes(list_offsets(&runtime_, call), call);
-    case Service::kVariables: return with_last_changes(list_variables(&runtime_, call), call);
-    case Service::kParameters: return with_last_changes(list_parameters(&runtime_, call), call);
+    case Service::kTools: return list(list_tools, call);
+    case Service::kLives: return list(list_lives, call);
+    case Service::kOffsets: return list(list_offsets, call);
+    case Service::kVariables: return list(list_variables, call);
+    case Service::kParameters: return list(list_parameters, call);
     case Service::kParameterExport: return export_parameters(&runtime_);
     case Service::kExport: return export_tables(&runtime_, call);
     case Service::kTraceSignals: return trace_.list_signals(call);

@@ -31,6 +31,8 @@ struct Session {
   std::string owner;         // whose requests take turns with those of others: its user, or for whom it asks
   bool may_speak = false;    // it may ask for others
   RightSet rights;
+  // With which of them requests have come that name one (Call::right), as those over DDS do: who needs two rights for a service has shown the second one so.
+  std::atomic<RightSet> came{RightSet()};
   std::atomic<bool> open{true};
   std::uint64_t sequence = 0;  // of its commands; in the thread of Lane::kCommand
 };
@@ -86,7 +88,7 @@ class Services {
   Outcome renamed(const Call& call);
   Outcome removed(const Call& call);
   Outcome list_changes(const Call& call);
-  Outcome with_last_changes(Outcome outcome, const Call& call) const;
+  Outcome list(Outcome (*read)(Runtime*, const Call&), const Call& call) const;
   void warn_of_selected(const std::string& name, Outcome* outcome) const;
   Outcome list_programs(const Call& call) const;
   Outcome program(const Session& session, const Call& call);

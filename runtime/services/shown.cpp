@@ -144,7 +144,7 @@ Json services_json() {
     Json request = Json::array();
     for (const Wanted& wanted : row.request)
       request.push_back({{"name", row_of(wanted.field).name}, {"type", kind_name(row_of(wanted.field).kind)}, {"required", wanted.required}});
-    services.push_back({{"name", row.name}, {"right", right_name(row.right)}, {"or_right", row.or_right ? right_name(*row.or_right) : ""}, {"meaning", row.meaning}, {"request", std::move(request)}});
+    services.push_back({{"name", row.name}, {"right", right_name(row.right)}, {"and_right", row.and_right ? right_name(*row.and_right) : ""}, {"meaning", row.meaning}, {"request", std::move(request)}});
   }
   return {{"services", std::move(services)}};
 }

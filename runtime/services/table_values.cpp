@@ -106,6 +106,20 @@ std::string place_key(const TablePlace& place) {
   return "";
 }
 
+std::string retained_key(const TablePlace& place) {
+  const std::string number = std::to_string(place.number), system = std::to_string(place.system);
+  switch (place.table) {
+    case Table::kTool: return "tool " + number + " " + std::to_string(place.column);
+    case Table::kOffset: return "work " + system + " " + number + " " + place.axis;
+    case Table::kVariable: return "variable " + system + " " + number;
+    case Table::kVariableName: return "name " + number;
+    case Table::kToolLife: return "life " + number + " " + std::to_string(place.column);
+    case Table::kParameter: return "parameter " + system + " " + (place.axis != 0 ? place.axis : kAllAxes) + " " + place.key;
+    case Table::kToolLabel: break;  // no program writes it
+  }
+  return "";
+}
+
 bool is_of(const TablePlace& place, const std::string& text) {
   const std::string key = place_key(place);
   return key == text || key.compare(0, text.size() + 1, text + " ") == 0;

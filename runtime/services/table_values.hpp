@@ -53,6 +53,8 @@ struct ValueChange {
 // with "-" for all axes.
 std::string place_key(const TablePlace& place);
 bool parse_place(const std::string& text, TablePlace* place);
+// The place in retained data (runtime/retain/writers.hpp).
+std::string retained_key(const TablePlace& place);
 // Whether `text` is such a place, or the beginning of some with all of its words whole: "tool 3" for all columns of the tool.
 bool is_of(const TablePlace& place, const std::string& text);
 // Whether it begins as such a place does.

@@ -14,7 +14,7 @@ import sys
 import time
 
 from dds_environment import PATIENCE, check, machine_text, services_text, until
-from secured_plant import SILENCE, Peer, Plant, Process, check_time, program, run
+from secured_plant import SILENCE, Peer, Plant, Process, check_time, in_time, program, run
 
 LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD M100\nOUT M101\nEND\n"
 TOPICS = ["nc_ServiceView", "nc_ServiceOperate", "nc_ServiceSetUp", "nc_ServiceMaintain"]
@@ -100,11 +100,11 @@ def walk(plant):
             if has:
                 client.heard(topic, "which the gateway hears")
                 refusal = client.answer(client.send(topic, service, **arguments))[1]
-                check(refusal in ("", "no control"), f"{service} on it: {refusal or 'done'}")
+                check(refusal in (("no right",) if service == "ladder.write" else ("", "no control")), f"{service} on it: {refusal or 'done'}")
             # On the topic that it has, it cannot do what another right is needed for.
             own = TOPICS[RIGHTS.index(right)]
             status, refusal, *_ = client.answer(client.send(own, service, **arguments))
-            enough = has or (right, service) == ("maintain", "control.take")  # forces and writes need control
+            enough = has and service != "ladder.write"  # a device can move the machine: that needs the right to operate as well
             check((status, refusal) == (REFUSED, "no right") if not enough else refusal in ("", "no control"), f"{service} on {own}: {refusal or 'done'}")
         check_rights(lambda: client.call("nc_ServiceView", "rights"), right, "the reply of rights")
         check_rights(lambda: client.call("nc_ServiceView", "rights.limit", rights=["view", "operate", "set up", "maintain"]), right, "that of rights.limit")
@@ -132,8 +132,8 @@ def walk_services(plant):
             for service in services:
                 arguments = {member["name"]: VALUES[member["type"]] for member in service["request"] if member["required"]}
                 _, refusal, _, text, _ = client.answer(client.send(topic, service["name"], **{**arguments, **ARGUMENTS.get(service["name"], {})}))
-                rights = {service["right"], service["or_right"] or service["right"]}
-                allowed = "view" in rights or name in {r.replace(" ", "") for r in rights}
+                rights = {service["right"], service["and_right"] or service["right"]}
+                allowed = rights <= {"view", "set up" if name == "setup" else name}
                 good = refusal != "no right" if allowed else refusal == "no right" and all(r in text["text"] for r in rights)
                 wrong += [] if good else [(service["name"], refusal, text)]
                 refused += not allowed
@@ -151,10 +151,10 @@ def check_rights(reply, right, what):
 NO_RIGHT, NOBODY, WRONG_USAGE, FAILED = 3, 6, 1, 5  # exit statuses of ncctl
 
 
-def ncctl(plant, identity, *words, status=0):
+def ncctl(plant, identity, *words, status=0, patience=60):
     """ncctl over DDS with an identity, None = without security; what it prints."""
     security = ("--security", plant.identity(identity)) if identity else ()
-    done = subprocess.run([program("ncctl"), "--domain", plant.domain, "--control", plant.share, *security, *words], capture_output=True, text=True, timeout=60,
+    done = subprocess.run([program("ncctl"), "--domain", plant.domain, "--control", plant.share, *security, *words], capture_output=True, text=True, timeout=patience,
                           env={k: v for k, v in os.environ.items() if k not in ("CYCLONEDDS_URI", "NC_SOCKET")})
     check(done.returncode == status, f"{identity or 'somebody without security'}: ncctl {' '.join(words)}: exit status {done.returncode} {done.stderr.strip()[:150]}")
     return done.stdout if status == 0 else done.stderr
@@ -175,11 +175,15 @@ def by_ncctl(plant):
         check([line.rstrip().split(",") for line in file] == rows, "a viewer reads the same recording afterwards")
     for right in ("view", "operate", "setup"):
         check("do not have the right to maintain" in ncctl(plant, right, "trace", "record", "nc.ready", "--samples", "10", status=NO_RIGHT), "and is told why")
-    for words, right in ((("jog", "X", "1", "--for", "0.1"), "operate"), (("start",), "operate"), (("force", "M100", "1"), "maintain")):
+    for words, right in ((("jog", "X", "1", "--for", "0.1"), "operate"), (("start",), "operate"), (("force", "M100", "1"), "maintain and operate")):
         check(f"the right to {right}\n" in ncctl(plant, "view", *words, status=NO_RIGHT), "and is told which right that needs, and not what control needs")
-    for words in (("ladder", "write", "M100", "1"), ("force", "M100", "1"), ("release", "--device", "M100")):
-        ncctl(plant, "maintain", *words)
-        check("right to maintain" in ncctl(plant, "operate", *words, status=NO_RIGHT), "who operates has not the right to it")
+    with open(os.path.join(plant.folder, "next.il"), "w", encoding="ascii") as file:
+        file.write("LD SM400\nOUT M77\nEND\n")
+    for words in (("ladder", "write", "M100", "1"), ("force", "M100", "1"), ("release", "--device", "M100"), ("ladder", "swap", os.path.join(plant.folder, "next.il"))):
+        for right in ("operate", "maintain"):
+            check("right to maintain and operate" in ncctl(plant, right, *words, status=NO_RIGHT), f"who has only the right to {right} has not the right to it")
+        if words[1] != "swap":
+            ncctl(plant, "boss", *words)
     check("right to operate" in ncctl(plant, "maintain", "start", status=NO_RIGHT), "who maintains starts nothing, in control or not")
     ncctl(plant, "setup", "tools", "set", "2", "--length", "7.5")
     check(json.loads(ncctl(plant, "view", "--json", "changes", "--count", "1"))["changes"][0]["user"] == "dds:setup", "what is set stands in the changes in the name of the identity")
@@ -315,6 +319,29 @@ def ends(plant, viewer, boss, gateway):
     until(lambda: viewer.call("nc_ServiceView", "rights")["control"] == "", "and has it no more when he is revoked")
 
 
+def ends_in_the_middle(plant):
+    """The identity of ncctl ends while it works: it says so then, and does not wait for a reply until its patience is over."""
+    patience = 30  # of ncctl, for a reply
+    valid = 25
+    ends = time.time() + valid
+    plant.make("identity", "short", "--right", "view", "--until", in_time(valid))
+    told = ncctl(plant, "short", "watch", "M100", "--rate", "1", "--for", "600", status=FAILED, patience=valid + patience + 30)
+    late = time.time() - ends
+    check("has expired at" in told and "internal error" not in told, f"it says when it has ended: {told.strip()}")
+    check(late < patience - 5, f"and says it {late:.1f} s behind the end")
+
+
+def second_gateway(plant):
+    """A gateway that cannot give commands passes the services on, and its warning says so: without DDS Security every user of the computer operates by them."""
+    for options, passes in ((("--services", plant.socket), True), (("--no-services",), False)):
+        second = Process(plant.folder, program("ncdds"), "--share", plant.share, "--domain", str(int(plant.domain) + 101), "--commands", *options)
+        second.wait_for("no commands: process [0-9]+ already gives the commands", "a second gateway without DDS Security gives no commands")
+        second.wait_for("publishes ", "and publishes")
+        said = bool(second.lines("no commands: .*; the services, and what they command, are passed on all the same$"))
+        check(said == passes, f"it says {'that' if passes else 'nothing of'} services are passed on")
+        check(second.end() == 0, "it ends in order")
+
+
 def secured_services(plant):
     plant.make("init")
     plant.make("identity", "gateway", "--gateway", "--machine", plant.share)
@@ -330,6 +357,8 @@ def secured_services(plant):
     walk(plant)
     walk_services(plant)
     by_ncctl(plant)
+    second_gateway(plant)
+    ends_in_the_middle(plant)
     viewer = Client(plant, plant.identity("view"), "view@watches")
     viewer.heard("nc_ServiceView", "a viewer")
     boss = hostile(plant, viewer)

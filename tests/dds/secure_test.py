@@ -15,7 +15,7 @@ import threading
 import time
 
 from dds_environment import PATIENCE, check, until
-from secured_plant import SILENCE, Peer, check_time, program, run
+from secured_plant import SILENCE, Peer, check_time, in_time, program, run
 
 TAKE_CONTROL, FEED_OVERRIDE, WRITE_DEVICE = 0, 6, 15  # CommandKind
 DONE, REJECTED = 1, 2  # AckState
@@ -117,10 +117,6 @@ def operate_only(operator):
     """By nc_Command nobody does what needs the right to maintain."""
     answer = operator.answered(operator.command(WRITE_DEVICE, value=1.0), REJECTED, "an operator does not write devices of the ladder")
     check("nc_ServiceMaintain" in answer.string, "and is told where that is done")
-
-
-def in_time(seconds):
-    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(time.time() + seconds))
 
 
 def longest_gap(viewer, since_ms):

@@ -135,6 +135,11 @@ class Plant:
                        environment=environment)
 
 
+def in_time(seconds):
+    """For nc-keys --until."""
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(time.time() + seconds))
+
+
 def check_time(end, text):
     if time.monotonic() > end:
         raise AssertionError(text)

@@ -100,15 +100,14 @@ def walk(client):
     for topic in TOPIC_OF_RIGHT.values():
         for service in services:
             error, text = outcome(client, service["name"], topic, **arguments_of(service))
-            own = {TOPIC_OF_RIGHT[right] for right in (service["right"], service["or_right"]) if right}
-            if (error == "no right") != own.isdisjoint(("nc_ServiceView", topic)):
+            if (error == "no right") != (TOPIC_OF_RIGHT[service["right"]] not in ("nc_ServiceView", topic)):
                 raise AssertionError(f"{service['name']} on {topic}: {error} {text}")
             if error in ("no connection", "unknown service") or (error == "malformed" and service["name"] not in ("programs.data", "programs.finish")):
                 raise AssertionError(f"{service['name']}: {error} {text}")
             if error == "no right":
                 refused += 1
                 assert f"the right to {service['right']}" in text, text
-    check(refused == sum(2 if s["or_right"] else 3 for s in services if s["right"] != "view"), f"{refused} of {4 * len(services)} cells refused")
+    check(refused == sum(3 for s in services if s["right"] != "view"), f"{refused} of {4 * len(services)} cells refused")
 
 
 def correlation(client):

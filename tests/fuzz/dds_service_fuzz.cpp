@@ -52,7 +52,7 @@ void ask(Bytes* in) {
   require(!hides && frame.size() <= kMostFrameBytes);
   Call call;
   require(decode_call(frame, &call, &outcome));
-  require(call.id == kId && call.right == right && request.service == call.row->name && call.row->allows(gate.rights));
+  require(call.id == kId && call.right == right && request.service == call.row->name && gate.rights.has(call.row->right));
   require(call.age_ns >= 0 && (call.row->lane != Lane::kCommand || sent_ns <= kNow + 1'000'000'000));
   const Json whole = Json::parse(frame, nullptr, false);
   require(whole.size() == 5 && whole["args"] == (request.args.empty() ? Json::object() : Json::parse(request.args, nullptr, false)));

@@ -40,14 +40,14 @@ TEST_F(LocalServices, EveryServiceIsRefusedToEveryOneWithoutItsRight) {
       const Json reply = client.call(row.name, arguments_of(row));
       ASSERT_FALSE(reply.is_null());
       const bool lacks = reply["ok"] == false && reply["error"] == "no right";
-      EXPECT_EQ(lacks, !rights.has(row.right) && !(row.or_right && rights.has(*row.or_right))) << reply;
+      EXPECT_EQ(lacks, !rights.has(row.right) || (row.and_right && !rights.has(*row.and_right))) << reply;
       // The pieces of a program that was begun before it are not right, which is asked for after the right.
       const bool piece = row.service == Service::kProgramData || row.service == Service::kProgramFinish;
       EXPECT_TRUE(piece || reply.value("error", "") != "malformed") << reply;
       if (lacks) {
         EXPECT_NE(reply["text"].get<std::string>().find(right_name(row.right)), std::string::npos);
-        if (row.or_right) {
-          EXPECT_NE(reply["text"].get<std::string>().find(right_name(*row.or_right)), std::string::npos);
+        if (row.and_right) {
+          EXPECT_NE(reply["text"].get<std::string>().find(right_name(*row.and_right)), std::string::npos);
         }
       }
       lacks ? ++refused : ++let;
@@ -57,30 +57,41 @@ TEST_F(LocalServices, EveryServiceIsRefusedToEveryOneWithoutItsRight) {
   EXPECT_GT(refused, 100u);
 }
 
-// Forces and writes of the ladder need control and the right to maintain, and nothing else: who has only that right takes control, and moves nothing with it.
-TEST_F(LocalServices, WhoMaintainsTakesControlAndMovesNothing) {
-  give({Right::kMaintain});
-  ServiceClient client(path_);
-  EXPECT_EQ(client.outcome("release"), "no control");
-  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
-  const Json released = client.call("release");
-  EXPECT_NE(released.value("error", ""), "no control") << released;
-  EXPECT_NE(released.value("error", ""), "no right") << released;
-  give({Right::kOperate});
-  ServiceClient other(path_);
-  EXPECT_EQ(other.outcome("start"), "no control");
-  EXPECT_NE(other.outcome("hold"), "no control");
-  for (const ServiceRow& row : service_table()) {
-    if (row.lane != Lane::kCommand) continue;
-    SCOPED_TRACE(row.name);
-    const bool may = row.service == Service::kTakeControl || row.service == Service::kForce || row.service == Service::kRelease || row.service == Service::kWriteDevice;
-    if (row.service != Service::kReleaseControl) {
-      EXPECT_EQ(client.outcome(row.name, arguments_of(row)) == "no right", !may);
+// What a device of the ladder is given, or a ladder program commands, can be plc.cycle_start or plc.jog_p: that takes the right to operate as well.
+TEST_F(LocalServices, WhoOnlySetsUpOrMaintainsMovesNothing) {
+  constexpr Service kMoves[] = {Service::kForce, Service::kRelease, Service::kWriteDevice, Service::kLadderSwap};
+  for (const Right right : {Right::kSetUp, Right::kMaintain}) {
+    give({right});
+    ServiceClient client(path_);
+    for (const ServiceRow& row : service_table()) {
+      SCOPED_TRACE(std::string(row.name) + " with the right to " + right_name(right));
+      const bool moves = row.lane == Lane::kCommand || std::find(std::begin(kMoves), std::end(kMoves), row.service) != std::end(kMoves);
+      if (moves) {
+        EXPECT_EQ(client.outcome(row.name, arguments_of(row)), "no right");
+      }
     }
   }
-  EXPECT_EQ(client.outcome("control.release"), "");
-  EXPECT_EQ(other.outcome("control.take"), "");
-  EXPECT_EQ(client.outcome("control.take"), "no control");
+  give({Right::kMaintain, Right::kOperate});
+  ServiceClient both(path_);
+  EXPECT_EQ(both.outcome("release"), "no control");
+  ASSERT_EQ(both.outcome("control.take"), "");
+  EXPECT_NE(both.outcome("release"), "no right");
+  EXPECT_NE(both.outcome("ladder.swap", {{"program", "END\n"}}), "no right");
+}
+
+// Over DDS a request shows the right of its topic, and one client has several.
+TEST_F(LocalServices, TheSecondRightIsShownByAnotherRequest) {
+  ServiceClient client(path_);
+  const auto outcome_with = [&](const char* service, const char* right) {
+    EXPECT_TRUE(client.send_bytes(frame_of(Json{{"id", 1}, {"service", service}, {"args", arguments_of(*find_service(service))}, {"right", right}}.dump())));
+    return client.receive();
+  };
+  const Json alone = outcome_with("force", "maintain");
+  EXPECT_EQ(alone["error"], "no right");
+  EXPECT_NE(alone["text"].get<std::string>().find("no request of this client has come with that to operate"), std::string::npos) << alone;
+  EXPECT_EQ(outcome_with("control.take", "operate")["ok"], true);
+  EXPECT_NE(outcome_with("force", "maintain").value("error", ""), "no right");
+  EXPECT_EQ(outcome_with("force", "operate")["error"], "no right");
 }
 
 TEST_F(LocalServices, ARightThatIsGivenUpDoesNotComeBack) {
@@ -102,11 +113,12 @@ TEST_F(LocalServices, ARequestCanComeWithOneRight) {
   ServiceClient client(path_);
   for (unsigned right = 0; right < kRightCount; ++right)
     for (const ServiceRow& row : service_table()) {
+      if (row.and_right) continue;  // TheSecondRightIsShownByAnotherRequest
       SCOPED_TRACE(std::string(row.name) + " with " + right_name(static_cast<Right>(right)));
       ASSERT_TRUE(client.send_bytes(frame_of(Json{{"id", 1}, {"service", row.name}, {"args", arguments_of(row)}, {"right", right_name(static_cast<Right>(right))}}.dump())));
       const Json reply = client.receive();
       const bool lacks = reply["ok"] == false && reply["error"] == "no right";
-      EXPECT_EQ(lacks, row.right != Right::kView && row.right != static_cast<Right>(right) && row.or_right != static_cast<Right>(right)) << reply;
+      EXPECT_EQ(lacks, row.right != Right::kView && row.right != static_cast<Right>(right)) << reply;
     }
   ASSERT_TRUE(client.send_bytes(frame_of(R"({"id":2,"service":"status","right":"everything"})")));
   EXPECT_EQ(client.receive()["error"], "malformed");

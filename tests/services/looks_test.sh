@@ -70,7 +70,7 @@ is "$(id -un)" 'r["variables"][0]["changed_by"]' variables list --from 501 --cou
 expect 0 "$ncctl" mode mdi
 expect 0 "$ncctl" mdi --start '#501=9'
 until_true says '^501 +9 ' "$ncctl" variables list
-is 'program 0' 'r["variables"][0]["changed_by"] + " " + str(r["variables"][0]["changed_ns"])' variables list --from 501 --count 1
+is 'MDI blocks True' 'r["variables"][0]["changed_by"] + " " + str(r["variables"][0]["changed_ns"] > 10**18)' variables list --from 501 --count 1
 
 # The block in execution is named from the first block of a called program on, also where the place of another one is used again.
 expect 0 "$ncctl" mode auto

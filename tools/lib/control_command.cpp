@@ -492,7 +492,7 @@ class Command {
     if (!request["right"].is_string()) *refusal = {kControlUsage, "malformed", "right must be the name of a right"};
     else if (!right) *refusal = {kControlUsage, "malformed", "right must be view, operate, set up or maintain"};
     else if (row == nullptr) *refusal = refusal_named("unknown service", "there is no such service");
-    else if (!row->is_of(rt::services::Right::kView) && !row->is_of(*right))
+    else if (row->right != rt::services::Right::kView && row->right != *right)
       *refusal = refusal_named("no right", service + " needs the right to " + rt::services::rights_text(*row) + ", and this request has come with that to " + name);
     else return true;
     return false;

@@ -189,7 +189,7 @@ set->callback([command] {
   command->service = "parameters.import";
 });
 
-CLI::App* swap = subcommand(app, "ladder.swap", "a ladder program takes the place of the one in execution (maintain)");
+CLI::App* swap = subcommand(app, "ladder.swap", "a ladder program takes the place of the one in execution (maintain and operate)");
 swap->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
 swap->add_option_function<std::string>("--name", [command](const std::string& name) { command->args["name"] = name; }, "its name in messages; without it, that of the file");
 swap->callback([command] { command->what = What::kSwap; });

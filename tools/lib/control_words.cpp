@@ -20,6 +20,7 @@ struct OwnCommand {
   const char* arguments;
   Right right;
   const char* meaning;
+  std::optional<Right> and_right = {};
 };
 // Commands that are no single service.
 constexpr OwnCommand kOwn[] = {
@@ -34,7 +35,7 @@ constexpr OwnCommand kOwn[] = {
     {"tables export", "[FILE] [--table TABLE]", Right::kView, "tool offsets, work offsets, tool life and common variables as TOML, to standard output without FILE"},
     {"tables import", "FILE", Right::kSetUp, "sets what the sections of the file name and leaves everything else as it is; - is standard input"},
     {"ladder swap", "FILE [--name NAME]", Right::kMaintain,
-     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; - is standard input. It stays until ncrtd ends"},
+     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; - is standard input. It stays until ncrtd ends", Right::kOperate},
     {"trace record", "SIGNALS... [--trigger TRIGGER] [--when WHEN] [--level LEVEL] [--samples SAMPLES] [--before BEFORE] [--file FILE]", Right::kMaintain,
      "records signals in each scan and writes them as CSV, to standard output without --file. Ctrl-C ends the recording, and what it has is written"},
     {"trace save", "[FILE]", Right::kView, "the recording that has ended as CSV, to standard output without FILE"},
@@ -222,7 +223,7 @@ std::string services_markdown() {
   for (unsigned right = 0; right < kRightCount; ++right) {
     text += "## Services that need the right to " + std::string(right_name(static_cast<Right>(right))) + "\n\n| service | request | meaning |\n|---|---|---|\n";
     for (const ServiceRow& row : service_table())
-      if (row.is_of(static_cast<Right>(right))) text += "| `" + std::string(row.name) + "` | " + request_text(row) + " | " + row.meaning + (row.or_right ? "; needs the right to " + rights_text(row) : "") + " |\n";
+      if (row.right == static_cast<Right>(right)) text += "| `" + std::string(row.name) + "` | " + request_text(row) + " | " + row.meaning + (row.and_right ? "; needs the right to " + rights_text(row) : "") + " |\n";
     text += "\n";
   }
   text += "## Members of requests\n\n| member | type | range | meaning |\n|---|---|---|---|\n";
@@ -248,7 +249,7 @@ std::string services_man() {
   };
   for (const ServiceRow& row : service_table())
     if (is_command(row)) add(rights_text(row), replaced(row.name, '.', ' '), arguments_of(row), row.meaning);
-  for (const OwnCommand& own : kOwn) add(right_name(own.right), own.words, own.arguments, own.meaning);
+  for (const OwnCommand& own : kOwn) add(std::string(right_name(own.right)) + (own.and_right ? std::string(" and ") + right_name(*own.and_right) : ""), own.words, own.arguments, own.meaning);
   return text;
 }
 

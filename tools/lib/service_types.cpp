@@ -44,7 +44,7 @@ const ServiceType kTypes[] = {
 std::string services_of(Right right) {
   std::string text;
   for (const ServiceRow& row : rt::services::service_table())
-    if (row.is_of(right)) text += (text.empty() ? "" : ", ") + std::string(row.name);
+    if (row.right == right) text += (text.empty() ? "" : ", ") + std::string(row.name);
   return text;
 }
 

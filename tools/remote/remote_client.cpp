@@ -32,8 +32,10 @@ class RemoteClient : public ServiceClient {
     std::string error;
     const std::string words = args.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (secured_ && row != nullptr && row->service == rt::services::Service::kRights) be_heard(words);
-    auto result = caller_.call(right, service, words, &text, &error);
-    if (result == ServiceCaller::Result::kNotAllowed && row != nullptr && row->or_right) result = caller_.call(*row->or_right, service, words, &text, &error);
+    // A request shows one right, that of its topic. The second one is shown by any request on the topic of that.
+    auto result = ServiceCaller::Result::kDone;
+    if (row != nullptr && row->and_right) result = caller_.call(*row->and_right, rt::services::row_of(rt::services::Service::kRights).name, "{}", &text, &error);
+    if (result == ServiceCaller::Result::kDone) result = caller_.call(right, service, words, &text, &error);
     if (result == ServiceCaller::Result::kNotAllowed)
       *refusal = refusal_named("no right", "the permissions of this identity do not have the right to " + (row != nullptr ? rt::services::rights_text(*row) : right_name(right)));
     else if (result != ServiceCaller::Result::kDone) *refusal = no_answer(result, error);
@@ -50,7 +52,7 @@ class RemoteClient : public ServiceClient {
   }
   bool may_use(const rt::services::ServiceRow& row) override {
     std::string error;
-    return caller_.may_ask(row.right, &error) || (row.or_right && caller_.may_ask(*row.or_right, &error));
+    return caller_.may_ask(row.right, &error) && (!row.and_right || caller_.may_ask(*row.and_right, &error));
   }
 
  private:
