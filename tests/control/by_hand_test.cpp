@@ -88,6 +88,63 @@ TEST_P(ByHand, UnderRadiusCompensationTheToolIsOnItsPathAtTheEndOfTheNextBlock) 
   }
 }
 
+// An arc in absolute words that begins beside the path is not the programmed one, by R no less than about a centre: P70 before anything moves (M700 12.4.4, decisions 6.15).
+// In increments it goes along with the way by hand as a whole, and led back the axes stand where the program has left them.
+TEST_P(ByHand, ACompensatedArcFromBesideThePathIsNotTheProgrammedOne) {
+  struct {
+    const char* arc;
+    bool back;
+    std::string alarm;
+  } const cases[] = {{"G3 X-20. Y20. R20.", false, "P70"}, {"G3 X-20. Y20. I-20. J0", false, "P70"}, {"G2 X20. Y20. R20.", false, "P70"},
+      {"G91 G3 X-20. Y20. R20.", false, ""}, {"G91 G3 X-20. Y20. I-20. J0", false, ""}, {"G3 X-20. Y20. R20.", true, ""}};
+  for (const auto& part : cases) {
+    SCOPED_TRACE(std::string(part.arc) + (part.back ? " led back" : ""));
+    HandMachine m(GetParam());
+    m.start("G90 G0 X0 Y-80.\nG41 D4 G1 X0 Y-60. F6000\nY-40.\nY0.\n" + std::string(part.arc) + "\nG91 G1 X-20.\nG40 X-20.\nM30");
+    for (unsigned block = 0; block < 4; ++block) {
+      ASSERT_TRUE(m.until_stop());
+      if (block < 3) m.press();
+    }
+    const nc_axes stopped = m.drive->out.command;
+    m.move(0, -3);
+    if (part.back) m.move(0, 3);
+    const nc_axes moved = m.drive->out.command;
+    ASSERT_NEAR(moved.v[0], stopped.v[0] - (part.back ? 0 : 3), 1e-9);
+    m.press();
+    ASSERT_TRUE(m.until_stop());
+    EXPECT_EQ(m.drive->alarm(), part.alarm);
+    if (!part.alarm.empty()) {
+      EXPECT_NEAR(m.at(0), moved.v[0], 1e-6);
+      EXPECT_NEAR(m.at(1), moved.v[1], 1e-6);
+    }
+    EXPECT_LT(m.worst, 1.001);
+  }
+}
+
+// The time-optimal mode stops on the rounding of a corner, beside the end of the block by the tolerance at most. Whoever moves an axis by hand there, be it one that the arc behind does not
+// name, or one that he brings back, has not moved the arc.
+TEST_P(ByHand, AnArcBehindAStopOnARounding) {
+  for (const char* arc : {"G3 X-20. Y20. R20.", "G3 X-20. Y20. I-20. J0", "G2 X20. Y20. I20. J0", "G2 X0 Y40. J20.", "G91 G3 X-20. Y20. R20."}) {
+    for (const unsigned axis : {0u, 1u, 2u}) {
+      for (const char* comp : {"", "G41 D4 "}) {
+        SCOPED_TRACE(std::string(comp) + arc + " axis " + std::to_string(axis));
+        HandMachine m(GetParam());
+        m.start("G90 G0 X0 Y-80.\n" + std::string(comp) + "G1 X0 Y-60. F6000\nY-40.\nY0.\n" + arc + "\nG91 G1 X-20.\nG40 X-20.\nM30");
+        for (unsigned block = 0; block < 4; ++block) {
+          ASSERT_TRUE(m.until_stop());
+          if (block < 3) m.press();
+        }
+        m.move(axis, 3);
+        if (axis < 2) m.move(axis, -3);
+        m.press();
+        ASSERT_TRUE(m.until_stop());
+        EXPECT_EQ(m.drive->alarm(), "");
+        EXPECT_LT(m.worst, 1.001);
+      }
+    }
+  }
+}
+
 struct Program {
   const char* name;
   const char* text;

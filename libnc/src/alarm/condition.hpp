@@ -15,7 +15,7 @@ enum class Condition : uint16_t {
   // G and M codes
   illegal_g, no_function, must_stand_alone, words_missing, center_missing,
   // motion
-  no_feed, arc_deviation, arc_displaced, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
+  no_feed, arc_deviation, arc_displaced, arc_by_hand, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
   no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, skip_feed_mode, no_reference, soft_limit, spindle_not_turning,
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
   comp_no_intersection, comp_interference, comp_way, corner_option, corner_arc, corner_no_move, corner_short, corner_reversal, corner_next_short,

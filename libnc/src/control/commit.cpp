@@ -177,6 +177,27 @@ bool Commit::begins_elsewhere(const Move& move) const {  // a shape, or an arc
   return std::fabs(h) > kNoJump || std::fabs(v) > kNoJump;
 }
 
+/// An arc behind a block stop on the rounding of a corner begins beside its programmed start by that rounding, where the axes were moved by hand there, as a line does: about its centre from where they are to its
+/// end. False: they are elsewhere, or the arc is no larger than the rounding.
+bool Commit::begin_on_rounding(const Move& move) {
+  constexpr double kLarger = 10;
+  const unsigned h = move.plane_axis[0], v = move.plane_axis[1];
+  if (machine_[h] != rounded_at_[h] || machine_[v] != rounded_at_[v]) return false;
+  const AxisVec place = machine_;
+  machine_[h] -= rounding_[h];
+  machine_[v] -= rounding_[v];
+  const bool elsewhere = begins_elsewhere(move);
+  machine_ = place;
+  if (elsewhere || std::fmin(circle_.radius_start, circle_.radius_end) < kLarger * std::hypot(rounding_[h], rounding_[v])) return false;
+  const double to_h = machine_[h] - circle_.center[0], to_v = machine_[v] - circle_.center[1];
+  const double ahead = std::remainder(std::atan2(to_v, to_h) - circle_.angle_start, 2 * kPi);
+  if (std::fabs(ahead) >= std::fabs(circle_.sweep)) return false;
+  circle_.radius_start = std::hypot(to_h, to_v);
+  circle_.angle_start += ahead;
+  circle_.sweep -= ahead;
+  return true;
+}
+
 /// HX 15.5.3: a place of the curve between its ends is prohibited. Curves are looked at in pieces, which differ from their chords by less than the
 /// tolerance of an arc.
 bool Commit::enters(const StrokeBox& box) const {
@@ -214,7 +235,7 @@ Committed Commit::commit(const Item& item, const Named& named) {
     } else if (move.circular) {
       circle_ = map_circle(move.circle, to_machine, move.plane_axis[0], move.plane_axis[1]);
       curve_.shape = nullptr;
-      if (begins_elsewhere(move)) return Committed::displaced;
+      if (begins_elsewhere(move) && !begin_on_rounding(move)) return Committed::displaced;
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, length_rotary_);
     } else {
       circle_ = Circle{};

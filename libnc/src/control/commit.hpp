@@ -65,7 +65,15 @@ class Commit {
   /// The machine has been moved to this place at the newest mark: a program that goes back to that mark begins here, too.
   void displace(const AxisVec& machine) {
     machine_ = machine;
+    rounded_at_ = {};
+    rounding_ = {};
     if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].machine = machine;
+  }
+  /// The same in a block stop. The program knows nothing of `rounding`, by which the time-optimal mode has left the axes beside the end of the block: the next move begins there all the same.
+  void displace(const AxisVec& machine, const AxisVec& rounding) {
+    displace(machine);
+    rounded_at_ = machine;
+    rounding_ = rounding;
   }
   /// Takes back what these stages have kept to go on from the newest mark: they will not go on that way.
   void forget_stages(uint8_t which) {
@@ -201,6 +209,7 @@ class Commit {
   }
   bool enters(const StrokeBox& box) const;
   bool begins_elsewhere(const Move& move) const;
+  bool begin_on_rounding(const Move& move);
   bool inside_limits(const Curve& curve);
   void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);
   void commit_shape(const Move& move, const Affine& to_machine, const MoveShape& shape);
@@ -225,6 +234,7 @@ class Commit {
   static inline constexpr MotionSettings kNoSettings{};
   const MotionSettings* settings_ = &kNoSettings;  ///< of the move just committed
   AxisVec machine_;
+  AxisVec rounded_at_, rounding_;  ///< where the axes were moved to by hand, and how far beside the program they stood before that
   AxisVec start_;            ///< start of the move just committed
   AxisVec taken_end_;        ///< end of the move that was taken back
   Circle circle_;            ///< of the move just committed, machine coordinates

@@ -453,11 +453,12 @@ void PartSystem::displace_contour(const AxisVec& by_hand) {
 /// are moved along by `shift`, so the rest of the program is shifted until G92.1. `left_at` is where the program had left the axes. In the time-optimal
 /// mode that may be beside the end of the block, within the tolerance: the program knows nothing of it, only the next move begins there.
 void PartSystem::displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift) {
-  AxisVec programmed = interpreter.machine(), beside_program, by_hand;
+  AxisVec programmed = interpreter.machine(), beside_program, by_hand, rounding;
   bool any = false;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (shift[i] != 0) interpreter.shift_coordinates(i, shift[i]);
     const double moved = machine[i] - left_at[i], beside = left_at[i] - commit_.machine()[i];
+    rounding[i] = beside;
     if (moved == 0) continue;
     any = true;
     by_hand[i] = moved;
@@ -469,7 +470,7 @@ void PartSystem::displace(const AxisVec& machine, const AxisVec& left_at, const 
     interpreter.move_to(programmed, beside_program);
     displace_contour(by_hand);
   }
-  commit_.displace(machine);
+  commit_.displace(machine, rounding);
 }
 
 }  // namespace nc

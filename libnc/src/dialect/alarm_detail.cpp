@@ -176,6 +176,7 @@ constexpr Sentence kSentences[] = {
      "Start and end of the arc are not on one circle about its centre."},
     {C::arc_displaced, "Vectors in space make the radii at both ends of the arc differ by {value} mm. Use vectors across its plane, or lines.",
      "Vectors in space make the radii at both ends of the arc differ. Use vectors across its plane, or lines."},
+    {C::arc_by_hand, "The axes were moved by hand in front of this compensated arc. Lead them back to where the program has stopped.", nullptr},
     {C::corner_uneven, "The two axes of the plane are scaled differently, so {word} would not be the corner that is written.",
      "The two axes of the plane are scaled differently, so the corner would not be the one that is written."},
     {C::tool_unknown, "Which tool is in the spindle is not known. Program {tool_change} or {tool_number}, or the number of the offset.", nullptr},

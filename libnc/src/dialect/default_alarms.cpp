@@ -79,6 +79,7 @@ constexpr AlarmRow kRows[] = {
     {C::no_feed, "NC-FEED", nullptr},
     {C::arc_deviation, "NC-ARC", nullptr},
     {C::arc_displaced, "NC-ARC", nullptr},
+    {C::arc_by_hand, "NC-ARC", nullptr},
     {C::arc_center, "NC-ARC", nullptr},
     {C::helix_option, "NC-ARC", nullptr},
     {C::plane_mismatch, "NC-PLANE", nullptr},

@@ -657,8 +657,18 @@ static double displaced_apart(const InForce& in, const MoveFrame& frame, unsigne
   return circle_apart(radius(frame.start, in.state.moved_space), radius(frame.end, end));
 }
 
+/// M700 12.4.4 (2): an absolute word leads back to the programmed path from beside it, so an arc in absolute words would be another one than is programmed, by R no less than about a centre.
+static bool would_be_another_arc(const BlockInHand& in) {
+  const Compensation& comp = in.state.comp;
+  const uint32_t absolute = in.words.target.axes() & ~in.words.target.incremental();
+  for (unsigned i = 0; i < 2; ++i)
+    if ((absolute >> comp.axis[i] & 1) != 0 && std::fabs(comp.by_hand[i]) > kReached) return true;
+  return false;
+}
+
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
+  if (stands_beside(in.state.comp) && would_be_another_arc(in)) [[unlikely]] return in.raise_mode(Condition::arc_by_hand, Mode::motion);
   if (in.state.length_changed_by_handle) [[unlikely]] move_nowhere(in, true);  // M700 12.3: both ends of an arc lie on a circle, so the new vector is gone to first
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));

@@ -52,6 +52,7 @@ const AlarmRow kConditions[] = {
     {C::arc_center, "F_82100", nullptr},         // 4.4
     {C::center_missing, "F_82100", nullptr},
     {C::arc_deviation, "F_82112", nullptr},
+    {C::arc_by_hand, "F_82112", nullptr},
     {C::block_too_long, "F_82111", nullptr},     // 2.2.4
     {C::polar_code, "F_82204", nullptr},         // 4.6
     {C::polar_modal, "F_82204", nullptr},

@@ -11,7 +11,7 @@ inline constexpr unsigned kFunctionRows = 93;
 inline constexpr unsigned kMiscRows = 6;
 inline constexpr unsigned kOutputRows = 5;
 inline constexpr unsigned kAlarmRows = 22;
-inline constexpr unsigned kConditionRows = 36;
+inline constexpr unsigned kConditionRows = 37;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];

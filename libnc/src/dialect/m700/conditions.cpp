@@ -37,6 +37,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_feed, "P62", nullptr},
     {C::arc_deviation, "P70", nullptr},  // 6.4
     {C::arc_displaced, "P70", nullptr},  // 12.5
+    {C::arc_by_hand, "P70", nullptr},    // 12.4.4
     {C::length_beside_arc, "P70", nullptr},  // App. 2
     {C::corner_uneven, "P70", nullptr},      // 13.19 (4)
     {C::arc_center, "P71", nullptr},     // 6.5

@@ -14,6 +14,7 @@ const AlarmRow kConditions[] = {
     {C::arc_center, "INVALIDARC", nullptr},  // G02
     {C::center_missing, "INVALIDARC", nullptr},
     {C::arc_deviation, "INVALIDARC", nullptr},
+    {C::arc_by_hand, "INVALIDARC", nullptr},
 };
 
 }  // namespace nc::series8

@@ -11,7 +11,7 @@ inline constexpr unsigned kFunctionRows = 51;
 inline constexpr unsigned kMiscRows = 8;
 inline constexpr unsigned kOutputRows = 7;
 inline constexpr unsigned kAlarmRows = 1;
-inline constexpr unsigned kConditionRows = 3;
+inline constexpr unsigned kConditionRows = 4;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];
