@@ -53,6 +53,55 @@ TEST(Walls, DistanceIsThatOfTheNearestPoints) {
   EXPECT_GT(crossing, 80u);
 }
 
+double away_at(const Piece& piece, double part, const Piece& other) {
+  Piece place;
+  place.from = place.to = at(piece, part);
+  return distance(place, other);
+}
+
+// The part from one end of a piece on that is near to another without a gap is the one that its points say, to rounding: all in front of its end is near, what is right behind it is not.
+TEST(Walls, AStretchEndsWhereThePieceIsFartherAway) {
+  std::mt19937 random(18);
+  constexpr int kSteps = 100;
+  unsigned some = 0, all = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Piece piece = random_piece(random), other = random_piece(random);
+    const double clear = std::uniform_real_distribution<double>(0.5, 12)(random);
+    for (const bool from_start : {true, false}) {
+      const double end = stretch_beside(piece, from_start, other, clear);
+      for (int k = 0; end > 0 && k <= kSteps; ++k) EXPECT_LE(away_at(piece, from_start ? end * k / kSteps : 1 - end * k / kSteps, other), clear + 1e-6) << i;
+      if (end < 1) {
+        EXPECT_GT(away_at(piece, from_start ? end + 1e-7 : 1 - end - 1e-7, other), clear) << i;
+      }
+      some += end > 0 && end < 1;
+      all += end == 1;
+    }
+  }
+  EXPECT_GT(some, 1000u);
+  EXPECT_GT(all, 300u);
+}
+
+// However short a gap is, the stretch ends there: the top of an arc that leaves the strip beside a line by 1 um, on 0.09 mm, where the tool has a radius of 5 mm.
+TEST(Walls, AShortGapIsOne) {
+  Piece line, arc;
+  line.from = {-10, 0};
+  line.to = {10, 0};
+  arc.round = true;
+  arc.center = {0, 4.001};
+  arc.radius = arc.radius_end = 1;
+  arc.from = {1, 4.001};
+  arc.to = {-1, 4.001};
+  arc.sweep = 3.14159265358979;
+  const double begins = std::asin(0.999) / arc.sweep;
+  EXPECT_NEAR(stretch_beside(arc, true, line, 5), begins, 1e-9);
+  EXPECT_NEAR(stretch_beside(arc, false, line, 5), begins, 1e-9);
+  EXPECT_EQ(stretch_beside(arc, true, line, 5.0011), 1);
+  arc.radius = 1.001;  // its radius changes by the last digit
+  arc.from = {1.001, 4.001};
+  EXPECT_LT(stretch_beside(arc, true, line, 5), 0.5);
+  EXPECT_LT(stretch_beside(arc, false, line, 5), 0.5);
+}
+
 }  // namespace
 
 namespace test {

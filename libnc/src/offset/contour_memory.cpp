@@ -297,7 +297,8 @@ bool ContourMemory::at_its_own_corner(const Path& path, uint64_t number) { retur
 
 /// The path of one of the two blocks beside a change of side, and the other block. On its way to the other side the tool has to cross the contour (M700 12.4.2): it cuts the block from the joint on up to where the
 /// path is the radius away from it. What it cuts beyond a gap is a wall as others are, and so is all of the block for what of the path lies beyond one.
-bool ContourMemory::enters_beyond_change(const Path& path, uint64_t number, const Wall& wall, double margin) {
+bool ContourMemory::enters_beyond_change(const Path& path, uint64_t number, const Wall& wall, Crossing* crossing) {
+  const double margin = margin_of(path, wall);
   const bool behind = number > path.number;  // the wall; the joint is where it begins and the path ends
   const Amount of_path{std::abs(path.before), std::abs(path.offset)}, of_wall{std::abs(wall.before), std::abs(wall.offset)};
   const double clear = std::max({of_path.start, of_path.end, of_wall.start, of_wall.end}) + margin;
@@ -305,10 +306,31 @@ bool ContourMemory::enters_beyond_change(const Path& path, uint64_t number, cons
     const double at = (from_start ? part : 1 - part) * (amount.end - amount.start) + amount.start;
     return from_start ? Amount{at, amount.end} : Amount{amount.start, at};
   };
-  const double cut = stretch_beside(wall.piece, behind, path.piece, clear);
-  if (cut < 1 && comes_nearer(path.piece, of_path, without_stretch(wall.piece, behind, cut), rest_of(of_wall, behind, cut), margin)) return true;
+  if (!crossing->unbroken) return comes_nearer(path.piece, of_path, wall.piece, of_wall, margin);
+  double cut = crossing->cut;
+  if (cut < 1) cut += (1 - cut) * stretch_beside(without_stretch(wall.piece, behind, cut), behind, path.piece, clear);
   const double crosses = stretch_beside(path.piece, !behind, wall.piece, clear);
+  *crossing = {cut, crosses >= 1};
+  if (cut < 1 && comes_nearer(path.piece, of_path, without_stretch(wall.piece, behind, cut), rest_of(of_wall, behind, cut), margin)) return true;
   return crosses < 1 && comes_nearer(without_stretch(path.piece, !behind, crosses), rest_of(of_path, !behind, crosses), wall.piece, of_wall, margin);
+}
+
+/// The path of a block behind a change of side, or what is inserted behind it, is settled: what is inserted next goes on with its crossing of the block in front of the change.
+void ContourMemory::go_on_crossing(const Path& path) {
+  const Wall& wall = walls_[path.number - 1];
+  if (path.number > state_.first && path.offset * wall.offset < 0) enters_beyond_change(path, path.number - 1, wall, &crossing_);
+}
+
+/// The path of a block in front of a change of side is settled. The last line that is inserted at its start lies in front of it, so only now is known whether it goes on with its crossing of the block behind the
+/// change.
+bool ContourMemory::enters_in_front(const Path& ahead, const Path& path) {
+  const uint64_t number = path.number + 1;
+  if (number >= state_.end || path.offset * walls_[number].offset >= 0) return false;
+  const Wall& wall = walls_[number];
+  if (wall.across || across_contour(path, number) || wall.low > ahead.high + kLevel_mm || ahead.low > wall.high + kLevel_mm) return false;
+  Crossing crossing;
+  enters_beyond_change(path, number, wall, &crossing);
+  return enters_beyond_change(ahead, number, wall, &crossing) && blame(number, ahead);
 }
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
@@ -326,8 +348,13 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
   if (between == 0 && !path.bends && !path.crosses_own && !(path.prolongs && wall.piece.round)) return false;
   if (between == 1 && across_contour(path, number)) return false;
   OpenEnds open;
-  double margin = kEnters_mm + path.slop + wall.slop;
-  if (between == 1 && path.offset * wall.offset < 0) return !path.of_joint && enters_beyond_change(path, number, wall, margin);  // what lengthens a block goes on with its crossing
+  double margin = margin_of(path, wall);
+  if (between == 1 && path.offset * wall.offset < 0) {
+    if (path.of_next) return false;  // asked when the path of its block is settled
+    Crossing crossing;
+    if (path.of_joint && number < path.number) crossing = crossing_;  // what is inserted behind a block goes on with its crossing
+    return enters_beyond_change(path, number, wall, &crossing);
+  }
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
     open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
     open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;
@@ -429,6 +456,9 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     const Clearance next = take(next_path);
     if (next != Clearance::fits && found != Clearance::full) found = next;
   };
+  crossing_ = {};
+  Path ahead_of_it;
+  if (paths_.end() > state_.first_path) ahead_of_it = paths_[paths_.end() - 1];
   if (section.led) {
     Piece lead;
     lead.from = start + section.led_from;
@@ -442,7 +472,10 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     add(ahead, lead);
   }
   path.crosses_own = (from_given && !path.from_contour) || (to_given && !path.to_contour) || section.oblique || section.by_hand;
-  add(path, path_of(section, start, from, section.joint.v[0]));
+  path.piece = path_of(section, start, from, section.joint.v[0]);
+  if (ahead_of_it.of_next && ahead_of_it.number + 1 == section.number && enters_in_front(ahead_of_it, path)) found = Clearance::enters;
+  add(path, path.piece);
+  go_on_crossing(path);
   path.from_contour = path.crosses_own = false;
   path.before = path.offset;
   path.bends = section.joint.corner_arc;
@@ -450,7 +483,9 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     path.of_joint = true;
     path.prolongs = section.joint.lengthened;
     path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
-    add(path, way_at(end, section.joint.v[k - 1], section.joint.v[k], path.bends, section.offset));
+    path.piece = way_at(end, section.joint.v[k - 1], section.joint.v[k], path.bends, section.offset);
+    add(path, path.piece);
+    go_on_crossing(path);
   }
   if (!section.cancel || section.transparent) return found;
   const bool no_way_in_or_out = no_way(section.number);

@@ -171,7 +171,15 @@ class ContourMemory {
   bool is_way_in(uint64_t number) const;
   static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
-  static bool enters_beyond_change(const Path& path, uint64_t number, const Wall& wall, double margin);
+  /// The tool on its way to the other side, over the block behind a change of side, or back over the one in front of it.
+  struct Crossing {
+    double cut = 0;        ///< part of that block, from the joint on, which the paths up to here have crossed
+    bool unbroken = true;  ///< all of these paths lies in the crossing
+  };
+  static double margin_of(const Path& path, const Wall& wall) { return kEnters_mm + path.slop + wall.slop; }
+  static bool enters_beyond_change(const Path& path, uint64_t number, const Wall& wall, Crossing* crossing);
+  void go_on_crossing(const Path& path);
+  bool enters_in_front(const Path& ahead, const Path& path);
   double amount_before(const Section& section) const;
   static bool at_its_own_corner(const Path& path, uint64_t number);
   bool blame(uint64_t number, const Path& path);
@@ -181,6 +189,7 @@ class ContourMemory {
   BoxRow<Wall> walls_;
   BoxRow<Path> paths_;
   State state_;
+  Crossing crossing_;  ///< of the block in front, by the path that is being settled
   const Culprit* culprit_ = nullptr;
   bool certain_ = false;  ///< with the block that is read it has shown that one in doubt is a wall
   Culprit in_front_;  ///< one that has nothing to do with ways in and out

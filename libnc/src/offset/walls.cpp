@@ -143,12 +143,81 @@ Vec2 point_at(const Piece& piece, double part) {
   return piece.center + radius * Vec2{c * out.h - s * out.v, s * out.h + c * out.v};
 }
 
-double length_of(const Piece& piece) { return piece.round ? mean_radius(piece) * std::abs(piece.sweep) : norm(piece.to - piece.from); }
-
 /// The two halves of a line or of an arc.
 void halve(const Piece& piece, Piece half[2]) {
   half[0] = without_stretch(piece, false, 0.5);
   half[1] = without_stretch(piece, true, 0.5);
+}
+
+/// Places along a piece, as parts of it.
+struct Places {
+  double part[8];
+  unsigned count = 0;
+  void add(double at) {
+    if (at > 0 && at < 1 && count < sizeof part / sizeof part[0]) part[count++] = at;
+  }
+};
+
+/// Where an arc, as the circle of its mean radius, is in this direction from its centre.
+void add_direction(const Piece& arc, Vec2 way, Places* places) {
+  if (arc.sweep == 0) return;
+  const double ahead = turned(arc.from - arc.center, way, arc.sweep);
+  places->add((ahead * arc.sweep < 0 ? ahead + std::copysign(kFull, arc.sweep) : ahead) / arc.sweep);
+}
+
+void add_circle(const Piece& piece, Vec2 center, double radius, Places* places) {
+  if (!piece.round) {
+    const Vec2 way = piece.to - piece.from, from = piece.from - center;
+    const double squares = dot(way, way), half = dot(way, from), root = half * half - squares * (dot(from, from) - radius * radius);
+    if (!(squares > 0) || root < 0) return;
+    for (const double sign : {-1.0, 1.0}) places->add((sign * std::sqrt(root) - half) / squares);
+    return;
+  }
+  const Vec2 beside = center - piece.center;
+  const double apart = norm(beside), own = mean_radius(piece);
+  if (!(apart > kNoLength)) return;
+  const Vec2 e = (1 / apart) * beside;
+  const double along = (own * own - radius * radius + apart * apart) / (2 * apart), squares = own * own - along * along;
+  if (squares < 0) return;
+  for (const double sign : {-1.0, 1.0}) add_direction(piece, along * e + sign * std::sqrt(squares) * left_of(e), places);
+}
+
+void add_line(const Piece& piece, Vec2 point, Vec2 u, Places* places) {
+  if (!piece.round) {
+    const double across = cross(piece.to - piece.from, u);
+    if (across != 0) places->add(cross(point - piece.from, u) / across);
+    return;
+  }
+  const double own = mean_radius(piece), away = dot(point - piece.center, left_of(u)), squares = own * own - away * away;
+  if (squares < 0) return;
+  for (const double sign : {-1.0, 1.0}) add_direction(piece, away * left_of(u) + sign * std::sqrt(squares) * u, places);
+}
+
+/// All that is as near to a piece as `clear` ends on a circle about one of its ends, or on a curve beside it. Between two places in which a line or an arc passes one of these it is either
+/// near or farther away throughout, so the first farther one between two such places is the end of the stretch.
+double circular_stretch(const Piece& piece, bool from_start, const Piece& other, double clear) {
+  Places places;
+  add_circle(piece, other.from, clear, &places);
+  add_circle(piece, other.to, clear, &places);
+  if (other.round) {
+    add_circle(piece, other.center, mean_radius(other) + clear, &places);
+    if (mean_radius(other) > clear) add_circle(piece, other.center, mean_radius(other) - clear, &places);
+  } else if (norm(other.to - other.from) > kNoLength) {
+    const Vec2 u = unit(other.to - other.from);
+    for (const double side : {-1.0, 1.0}) add_line(piece, other.from + side * clear * left_of(u), u, &places);
+  }
+  if (!from_start)
+    for (unsigned i = 0; i < places.count; ++i) places.part[i] = 1 - places.part[i];
+  std::sort(places.part, places.part + places.count);
+  double begins = 0;
+  for (unsigned i = 0; i <= places.count; ++i) {
+    const double ends = i < places.count ? places.part[i] : 1, between = 0.5 * (begins + ends);
+    Piece place;
+    place.from = place.to = point_at(piece, from_start ? between : 1 - between);
+    if (distance(place, other) > clear) return begins;
+    begins = ends;
+  }
+  return 1;
 }
 
 }  // namespace
@@ -283,19 +352,16 @@ bool comes_nearer(const Piece& path, Amount of_path, const Piece& wall, Amount o
          comes_nearer(path, of_path, half[1], {middle, of_wall.end}, margin, {false, open.to});
 }
 
-// From a point as near as d the next one that can be clear is clear - d ahead. Steps no shorter than a fraction of what has been gone end the search; a gap shorter than that is none.
 double stretch_beside(const Piece& piece, bool from_start, const Piece& other, double clear) {
-  constexpr double kStep = 1.0 / 32;
-  const double length = length_of(piece);
-  for (double gone = 0; gone < length;) {
-    const double part = gone / length;
-    Piece place;
-    place.from = place.to = point_at(piece, from_start ? part : 1 - part);
-    const double away = distance(place, other);
-    if (away > clear) return part;
-    gone += std::max({clear - away, kStep * clear, kStep * gone});
-  }
-  return 1;
+  if (slack(piece) <= kOneRadius_mm) return circular_stretch(piece, from_start, other, clear);
+  const double half_length = 0.5 * std::max(piece.radius, piece.radius_end) * std::abs(piece.sweep) + slack(piece);
+  Piece middle;
+  middle.from = middle.to = point_at(piece, 0.5);
+  if (distance(middle, other) + half_length <= clear) return 1;
+  Piece half[2];
+  halve(piece, half);
+  const double first = stretch_beside(half[from_start ? 0 : 1], from_start, other, clear);
+  return first < 1 ? 0.5 * first : 0.5 + 0.5 * stretch_beside(half[from_start ? 1 : 0], from_start, other, clear);
 }
 
 Piece without_stretch(const Piece& piece, bool from_start, double part) {
