@@ -317,8 +317,9 @@ bool ContourMemory::enters_beyond_change(const Path& path, uint64_t number, cons
 
 /// The path of a block behind a change of side, or what is inserted behind it, is settled: what is inserted next goes on with its crossing of the block in front of the change.
 void ContourMemory::go_on_crossing(const Path& path) {
+  if (path.number <= state_.first) return;
   const Wall& wall = walls_[path.number - 1];
-  if (path.number > state_.first && path.offset * wall.offset < 0) enters_beyond_change(path, path.number - 1, wall, &crossing_);
+  if (path.offset * wall.offset < 0) enters_beyond_change(path, path.number - 1, wall, &crossing_);
 }
 
 /// The path of a block in front of a change of side is settled. The last line that is inserted at its start lies in front of it, so only now is known whether it goes on with its crossing of the block behind the
