@@ -113,6 +113,38 @@ TEST(Meeting, ArcAndArcOneByItsRadius) {  // (b) 2 and 3
   EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nG3 X25. Y15. I0 J-15.\nM30"), (Path{"line -10 0 0", "cw 10 0 0 c0,0", "ccw 25 15 0 c25,0"}));
 }
 
+TEST(Meeting, TheCentreByPAndQ) {  // "(X, Z arc center position (absolute position)) can be commanded instead of I and K"
+  const struct {
+    const char* by_vectors;
+    const char* by_place;
+  } pairs[] = {
+      {"G18 G2 I0 K20. F100\nG3 X0 Z70. I0 K-15.\nM30", "G18 G2 P0 Q20. F100\nG3 X0 Z70. P0 Q55.\nM30"},
+      {"G18 G2 I0 K20. F100\nG3 X0 Z70. I0 K-15.\nM30", "G18 G2 I0 K20. F100\nG3 X0 Z70. P0 Q55.\nM30"},
+      {"G18 G2 I0 K20. F100\nG3 X0 Z70. R15.\nM30", "G18 G2 P0 Q20. F100\nG3 X0 Z70. R15.\nM30"},
+      {"G17 G2 I20. J0 F100\nG3 X70. Y0 I-15. J0\nM30", "G17 G2 P20. Q0 F100\nG3 X70. Y0 P55. Q0\nM30"},
+      {"G19 G2 J20. K0 F100\nG3 Y70. Z0 J-15. K0\nM30", "G19 G2 P20. Q0 F100\nG3 Y70. Z0 P55. Q0\nM30"},
+      {"G18 G1 A30. F100\nG2 Z60. X0 K-20. I0 H1\nM30", "G18 G1 A30. F100\nG2 Z60. X0 P0 Q40. H1\nM30"},
+      {"G17 G2 I20. J0 H1 F100\nG1 X60. Y-10. A170.\nM30", "G17 G2 P20. Q0 H1 F100\nG1 X60. Y-10. A170.\nM30"},
+      {"G17 G2 I20. J0 F100\nG1 X60. Y-10. A170.\nM30", "G17 G2 P20. Q0 F100\nG1 X60. Y-10. A170.\nM30"},
+      {"G17 G91 G1 X3. Y4. F100\nG2 I20. J0\nG90 G3 X73. Y4. I-15. J0\nM30", "G17 G91 G1 X3. Y4. F100\nG2 P23. Q4.\nG90 G3 X73. Y4. P58. Q4.\nM30"},
+      {"G20 G17 G2 I1. J0 F100\nG3 X3.5 Y0 I-.75 J0\nM30", "G20 G17 G2 P1. Q0 F100\nG3 X3.5 Y0 P2.75 Q0\nM30"},
+      {"G51.1 X0\nG17 G2 I20. J0 F100\nG3 X70. Y0 I-15. J0\nM30", "G51.1 X0\nG17 G2 P20. Q0 F100\nG3 X70. Y0 P55. Q0\nM30"}};
+  for (const auto& pair : pairs) {
+    SCOPED_TRACE(pair.by_place);
+    const Path wanted = path_of(pair.by_vectors);
+    EXPECT_GE(wanted.size(), 2u);
+    EXPECT_EQ(path_of(pair.by_place), wanted);
+  }
+}
+
+TEST(Meeting, ACentreByPAndQMeansNothingElsewhere) {
+  EXPECT_EQ(alarm_of("G18 G2 P0 Q20. F100\nG1 X0 Z70.\nM30"), "P395 L2");        // no pair follows
+  EXPECT_EQ(alarm_of("G18 G2 P0 Q20. F100\nG91 G3 X0 Z70. P0 Q55.\nM30"), "P393 L2");
+  EXPECT_EQ(alarm_of("G18 G2 P0 Q20. F100\nG3 Z70. P0 Q55.\nM30"), "P395 L2");   // its end is not whole
+  EXPECT_EQ(alarm_of("G18 G2 I0 K20. F100\nG3 X0 Z70. P0 Q90.\nM30"), "P397 L2");  // circles that do not touch are no pair, and there is no other reading
+  EXPECT_EQ(path_of("G17 G1 X0 F100\nG2 X20. Y0 I10. J0 P1\nM30").size(), 1u);   // turns (6.6)
+}
+
 TEST(Meeting, LineAndArcThatCross) {  // (c)
   EXPECT_EQ(path_of("G1 X-20. F100\nA0\nG2 X0 Y-10. I0 J10. H0\nM30"), (Path{"line -20 0 0", "line -10 0 0", "cw 0 -10 0 c0,0"}));
   EXPECT_EQ(path_of("G1 X-20. F100\nA0\nG2 X0 Y-10. I0 J10. H1\nM30"), (Path{"line -20 0 0", "line 10 0 0", "cw 0 -10 0 c0,0"}));

@@ -86,6 +86,13 @@ struct Command {
 
   /// The word counts as if it had this value.
   void put(WordSlot word, double value) { value_[index_of(word)] = value; }
+  /// The block counts as if this word stood in it, with a point; as if it did not.
+  void give(WordSlot word, double value) {
+    value_[index_of(word)] = value;
+    form_[index_of(word)] = kWordPoint;
+    present |= WordSet{1} << index_of(word);
+  }
+  void leave_out(WordSlot word) { present &= ~(WordSet{1} << index_of(word)); }
 
  private:
   friend class CommandReader;

@@ -28,6 +28,7 @@ enum class Role : uint8_t {
   curve_order, curve_knot, curve_weight,        ///< of a NURBS
   circle_radius,                                ///< of a circle that is cut from its centre
   line_angle, meeting_choice,                   ///< slope of a line; which of two points it meets a circle in
+  meeting_center, meeting_center_2,             ///< coordinates of the centre of such a circle, along the axes of the plane in the order X Y Z
   turn_x, turn_y, turn_z,                       ///< names of the axes that turn about the basic ones
 
   // ---- dwell, cycles

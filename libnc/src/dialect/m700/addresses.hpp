@@ -44,6 +44,8 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::circle_radius, 'I'},      // 13.10
     {Role::line_angle, 'A'},         // 13.8
     {Role::meeting_choice, 'H'},     // 13.9
+    {Role::meeting_center, 'P'},
+    {Role::meeting_center_2, 'Q'},
     {Role::turn_x, 'A'},             // 12.3
     {Role::turn_y, 'B'},
     {Role::turn_z, 'C'},

@@ -74,6 +74,32 @@ bool circle_of_block(const BlockInHand& in, const InPlane& plane, PlanePoint fro
   return any;
 }
 
+/// "P and Q can be commanded instead of I and K": both of them, and no other word of a circle. P beside such a word is the number of turns (6.6).
+bool says_center(const BlockInHand& in) {
+  const Command& w = in.words;
+  if (!in.dialect->addresses.has(Role::meeting_center) || !is_arc(in.state.modal.of(Mode::motion)) || !free_for_lines(in)) return false;
+  return w.has(Role::meeting_center) && w.has(Role::meeting_center_2) && !w.any({Role::arc_radius, Role::vector_x, Role::vector_y, Role::vector_z});
+}
+
+/// As if the centre had been said by I J K: from the start in the first block of a pair, from the end in the second one. False: it has no end, from which these could count.
+bool take_center(BlockInHand& in) {
+  Command& w = in.words;
+  const InPlane plane = in_plane(in);
+  if (!plane.exists()) return false;
+  const bool first = w.target.axes() == 0;
+  if (!first && ((w.target.axes() & plane.bits()) != plane.bits() || (w.target.incremental() & plane.bits()) != 0)) return false;
+  const double unit = in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1;
+  const double from[2] = {first ? plane.at.h : w.target[plane.h], first ? plane.at.v : w.target[plane.v]};
+  const bool in_order = plane.axes.center[0] < plane.axes.center[1];  // G18: the first axis is Z
+  for (unsigned i = 0; i < 2; ++i) {
+    const Role word = (i == 0) == in_order ? Role::meeting_center : Role::meeting_center_2;
+    w.give(in.word(plane.axes.center[i]), (length_of(in, word) - from[i]) / unit);
+  }
+  w.leave_out(in.word(Role::meeting_center));
+  w.leave_out(in.word(Role::meeting_center_2));
+  return true;
+}
+
 /// H0 or H1; other values are no choice (P395).
 bool choice_of_block(const BlockInHand& in, int8_t* choice) {
   *choice = -1;
@@ -157,13 +183,14 @@ void emit_by_radius(BlockContext& in, const InPlane& plane, const KnownCircle& c
   emit_circular(in, frame, plane.axes, placeholder, NC_MOVE_ARC);
 }
 
-/// (b), (d), (f): G02, G03 without an end. Unless the next block meets it, it is what it is elsewhere: a whole circle (6.4), or nothing (6.5).
-Execution begin_with_arc(BlockContext& in) {
+/// (b), (d), (f): G02, G03 without an end. Unless the next block meets it, it is what it is elsewhere: a whole circle (6.4), or nothing (6.5); `by_center`: by P and Q, which mean nothing elsewhere.
+Execution begin_with_arc(BlockContext& in, bool by_center) {
   const InPlane plane = in_plane(in);
   KnownCircle circle;
   if (!plane.exists() || !circle_of_block(in, plane, plane.at, &circle)) return move_by_words(in);
   MeetingFirst first;
   if (!choice_of_block(in, &first.choice)) return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
+  if (by_center && first.choice < 0) first.choice = 0;
   const Condition option = circle.by_radius ? Condition::geometric_arc_option : Condition::geometric_circle_option;
   if (first.choice >= 0) {
     const Execution did = check_modes_of_pair(in, option);
@@ -323,11 +350,12 @@ Execution check_second_words(BlockInHand& in) {
   return Execution::done;
 }
 
-Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
+/// `by_center`: the block has said its centre by P and Q, which only the second of a pair does.
+Execution end_meeting(BlockContext& in, const MeetingFirst& first, bool by_center) {
   in.state.meeting = {};
   const InPlane plane = in_plane(in);
   Second second = second_block(in, plane);
-  const bool needed = needs_second(first);
+  const bool needed = needs_second(first) || by_center;
   if (needed) {
     const Execution did = check_second_words(in);
     if (did != Execution::done) return did;
@@ -338,7 +366,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
     if (!second.line && !second.arc) return in.raise(Condition::geometric_address);
   }
   const bool both_by_radius = first.kind == Kind::arc && first.by_radius && second.arc && second.circle.by_radius;
-  const bool pair = (second.line || second.arc) && !both_by_radius && !(first.kind == Kind::arc && second.arc && stands_by_itself(in, first, second, true));
+  const bool pair = (second.line || second.arc) && !both_by_radius && (by_center || !(first.kind == Kind::arc && second.arc && stands_by_itself(in, first, second, true)));
   if (!pair) return needed ? in.raise(Condition::geometric_address) : Execution::later;
   if (second.incremental) return in.raise(Condition::geometric_incremental);
   if (!choice_of_block(in, &second.choice)) return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
@@ -361,6 +389,7 @@ bool begins_meeting(const BlockInHand& in) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return false;
   if (has_line_angle(in)) return (w.target.axes() & (1u << plane.h | 1u << plane.v)) == 0;
+  if (says_center(in)) return w.target.axes() == 0;
   if (!is_arc(in.state.modal.of(Mode::motion)) || w.target.axes() != 0 || w.has(Role::arc_turns)) return false;
   return w.has(Role::arc_radius) || w.has(plane.center[0]) || w.has(plane.center[1]);
 }
@@ -385,13 +414,14 @@ bool begins_or_ends_meeting(const BlockInHand& in) {
 
 Execution move_to_meet(BlockContext& in) {
   const MeetingFirst first = in.state.meeting;
+  const bool by_center = says_center(in) && take_center(in);
   if (first.kind != Kind::none) {
-    const Execution did = end_meeting(in, first);
+    const Execution did = end_meeting(in, first, by_center);
     if (did != Execution::later) return did;
     in.words.meeting = false;
     if (!begins_meeting(in)) return execute_motion_of_words(in);
   }
-  return has_line_angle(in) ? begin_with_line(in) : begin_with_arc(in);
+  return has_line_angle(in) ? begin_with_line(in) : begin_with_arc(in, by_center);
 }
 
 /// 13.8: the end coordinate that is missing, from the one that is there.
