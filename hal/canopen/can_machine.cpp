@@ -303,7 +303,10 @@ SpindleAsked CanMachine::asked_of(unsigned index, const AxisMap& map, const Syst
   const auto is_on = [&image](int point) { return point >= 0 && image.value[point] != 0; };
   const unsigned step = spindle.gear_select >= 0 ? image.value[spindle.gear_select] : 1;
   const bool in_gear = step >= 1 && step <= spindle.gears.size();
-  if (in_gear) now.gear = step - 1;
+  if (in_gear && step - 1 != now.gear) {
+    now.loop.change_gear(spindle.gears[now.gear] / spindle.gears[step - 1]);
+    now.gear = step - 1;
+  }
   const bool on = system.enable && (axis.fault & kFaulty) == 0 && cyclic_.is_enabled(index);
   const bool speed_given = (system.strobe & kSpeedStrobe) != 0 && (system.spindle_selected >> spindle.number & 1u) != 0;
   const bool anew = speed_given && !now.speed_given;

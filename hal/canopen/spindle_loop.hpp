@@ -32,6 +32,8 @@ class SpindleLoop {
   explicit SpindleLoop(const SpindleLaw& law) : law_(law) {}
   // One scan of `cycle_s`, with what is measured. Returns the speed for the drive, rev/s.
   double step(const SpindleAsked& asked, double turns, double cycle_s) noexcept;
+  // The motor goes on as it does, which is so many times the speed for the spindle: the slope leads on from there.
+  void change_gear(double faster) noexcept { speed_ *= faster; }
   bool oriented() const noexcept { return oriented_; }
 
  private:

@@ -122,6 +122,33 @@ TEST(CanSpindle, GearStepsTurnTheMotorFaster) {
   EXPECT_LT(rig.measured().turns - before, 20) << "the angle goes on";
 }
 
+// A ladder that names the next gear while the spindle still turns, or slows down, gives the motor no step: it goes on from the speed that it has, with the acceleration of its spindle.
+TEST(CanSpindle, AGearStepThatComesAmidAChangeOfSpeedLeadsTheMotorByItsSlope) {
+  SpindleRig rig(kGears);
+  const double steepest = 6000 * 4 * 0.002 * 1.5;  // r/min of the motor in a SYNC, in the lower gear
+  rig.block("S600\n#1103 = 1");
+  rig.step(400);
+  EXPECT_NEAR(rig.rpm(), 2400, 0.01);
+  const auto steps_no_more = [&](unsigned scans) {
+    double before = rig.rpm(), most = 0;
+    for (unsigned n = 0; n < scans; ++n) {
+      rig.step(2);
+      most = std::max(most, std::abs(rig.rpm() - before));
+      before = rig.rpm();
+    }
+    EXPECT_LT(most, steepest);
+  };
+  ASSERT_EQ(rig.mdi("#1133 = 2"), Answer::kDone);
+  steps_no_more(400);
+  EXPECT_NEAR(rig.rpm(), 600, 0.01);
+  ASSERT_EQ(rig.mdi("S1200\nG04 P20\n#1133 = 1"), Answer::kDone);  // on its way to 1200
+  steps_no_more(600);
+  EXPECT_NEAR(rig.rpm(), 4800, 0.01);
+  ASSERT_EQ(rig.mdi("#1133 = 0\nG04 P20\n#1133 = 2"), Answer::kDone);
+  steps_no_more(600);
+  EXPECT_NEAR(rig.rpm(), 1200, 0.01);
+}
+
 TEST(CanSpindle, IsOrientedAndHolds) {
   SpindleRig rig(kOrient);
   rig.block("S600\n#1103 = 1");
