@@ -21,7 +21,10 @@ class MeasuredMachine final : public hal::Hal {
  public:
   MeasuredMachine(const rt::Config& config, hal::SimMachine* machine) : config_(config), machine_(machine) {}
   bool start(const hal::PointImage& initial, std::string* error) override { return machine_->start(initial, error); }
-  void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override { machine_->read(feedback, image); }
+  void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override {
+    machine_->read(feedback, image);
+    if (lies) feedback->system[0].spindle[0].rev_per_s = std::nan("");
+  }
   void write(const hal::Command& command, const hal::PointImage& image) noexcept override {
     const hal::SystemCommand& system = command.system[0];
     for (unsigned a = 0; a < config_.nc.system[0].axis_count; ++a) measure(a, system);
@@ -31,6 +34,7 @@ class MeasuredMachine final : public hal::Hal {
   void stop() noexcept override { machine_->stop(); }
 
   hal::SystemCommand last{};
+  bool lies = false;  // the measured speed of the spindle is no number
   double fastest = 0, hardest = 0;  // of all; set back with forget()
   double fastest_of[NC_MAX_AXES] = {}, hardest_of[NC_MAX_AXES] = {};
   void forget() {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limit switches with a way out, interlocks of an axis and a direction, drives and brakes one by one. The rows of docs/safety.md.
+#include <utility>
+#include <vector>
+
 #include "axes_machine.hpp"
 #include "runtime/has_bus.hpp"
 
@@ -385,6 +388,52 @@ TEST_F(Guard, AnAlarmOfTheMachineAndOneOfTheScanStopOnThePathWithTheDrivesOn) {
     EXPECT_FALSE(stopped_by_alarm());
     EXPECT_EQ(out().state, NC_STATE_IDLE);
     for (const unsigned axis : {kX, kY, kZ}) EXPECT_EQ(out().command.v[axis], stands.v[axis]);
+    expect_limits_kept();
+  }
+}
+
+// Each column of docs/safety.md for alarms that stop on the path: drives hold and brakes stay open, outputs are left alone, nothing is lost, nothing starts before the reset, which moves nothing.
+TEST_F(Guard, AnAlarmThatStopsOnThePathLeavesDrivesBrakesAndOutputs) {
+  struct Cause {
+    const char* says;
+    std::vector<std::pair<const char*, std::uint32_t>> inputs;  // contacts that say so; empty: the measured speed of the spindle is no number
+  };
+  const auto set = [this](const Cause& cause, bool comes) {
+    measured->lies = comes && cause.inputs.empty();
+    for (const auto& [name, value] : cause.inputs) in(name, comes ? value : 1 - value);
+  };
+  for (const Cause& cause : {Cause{"R22 Limit switch in +, axis X", {{"x_max", 0}}}, {"R22 Limit switches of both ends", {{"y_min", 0}, {"y_max", 0}}}, {"R21 ", {}}, {"R16 ", {{"start", 1}}}}) {
+    SCOPED_TRACE(cause.says);
+    build(changed({{"\"plc.cycle_start\" = \"start\"", "\"plc.alarm.1\" = \"start\""}, {"dog = [-310.0, -290.0]\nminus = -320.0\nplus = 320.0\n", "dog = [-310.0, -290.0]\n"}, {"stands_at = 12.25\nminus = -320.0\nplus = 320.0\n", "stands_at = 12.25\n"},
+                   {"homing = { kind = \"limit\", direction = \"+\", fast = 60.0, creep = 3.0, offset = -320.0, order = 2 }\n", ""}}) +
+          "[[point]]\nname = \"lamp\"\ndirection = \"output\"\n[macro_interface]\n\"#1100\" = \"lamp\"\n");
+    for (const char* contact : {"x_min", "x_max", "y_min", "y_max"}) in(contact, 1);
+    steps(5);
+    reset();
+    home_machine();
+    ASSERT_EQ(start_program("#1100=1\nG90 G53 G0 X0 Y0\nG53 G1 X200. Y100. F6000.\nM30\n"), Answer::kDone);
+    ASSERT_GE(until([&] { return place(kX) > 50; }, 8000), 0) << alarm();
+    set(cause, true);
+    ASSERT_GE(until([&] { return stopped_by_alarm(); }, 10), 0);
+    ASSERT_GE(until([&] { return out().distance_zero && out().state == NC_STATE_ALARM; }, 500), 0);
+    steps(300);
+    EXPECT_EQ(alarm().rfind(cause.says, 0), 0u) << alarm();
+    EXPECT_NEAR(out().command.v[kX], 2 * out().command.v[kY], 1e-6) << "on the path";
+    EXPECT_TRUE(measured->last.enable && measured->last.off == 0) << "drives hold";
+    EXPECT_TRUE(brake_open());
+    EXPECT_EQ(machine->outputs().value[point_of("lamp")], 1u);
+    EXPECT_EQ(flags().homed, 7u);
+    EXPECT_EQ(ask(CommandKind::kCycleStart), Answer::kAlarmActive);
+    const nc_axes stands = out().command;
+    set(cause, false);
+    steps(300);
+    EXPECT_TRUE(stopped_by_alarm() || alarm().empty());
+    reset();
+    steps(300);
+    EXPECT_EQ(alarm(), "");
+    for (const unsigned axis : {kX, kY, kZ}) EXPECT_EQ(out().command.v[axis], stands.v[axis]);
+    EXPECT_EQ(machine->outputs().value[point_of("lamp")], 1u);
+    EXPECT_EQ(start_program("G90 G53 G0 X10.\nM30\n"), Answer::kDone);
     expect_limits_kept();
   }
 }

@@ -355,6 +355,7 @@ TEST_F(Homing, EachFailureIsAnAlarmThatNamesAxisAndReason) {
     steps(10);
     EXPECT_EQ(flags().homing, 0u);
     EXPECT_EQ(flags().homed, 0u);
+    EXPECT_TRUE(measured->last.enable && measured->last.off == 0 && brake_open()) << "the drives hold";
     expect_limits_kept();
   }
 }
