@@ -46,6 +46,7 @@ struct Section {
   bool settled = false;       ///< its path has been looked at
   bool inch : 1 = false;      ///< its words are in inch (unsure_of())
   bool by_hand : 1 = false;   ///< it begins where the axes were moved by hand, and leads back to its end
+  bool alone : 1 = false;     ///< its joint has been made without a block behind it
   bool part : 1 = false;      ///< a line of micrometres that is a part of what goes on before and behind it (tiny_line.hpp): it has no direction to keep
   uint32_t descent = 0;       ///< of the contour, which it belongs to
   uint64_t number = 0;        ///< in that memory
@@ -59,7 +60,7 @@ struct Section {
     joint.n = 0;
     joint.corner_arc = joint.lengthened = joint.first_erased = joint.last_erased = false;
     jointed = commanded = holds = start = cancel = vanished = dead = oblique = merge_first = merge_last = check = walls = avoid = bound = transparent = cuts = led = led_turns = settled = false;
-    part = false;
+    part = alone = false;
     descent = 0;
     number = 0;
     contour_start = {};

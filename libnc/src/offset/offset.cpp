@@ -179,6 +179,7 @@ OffsetStage::Held& OffsetStage::new_slot(uint32_t index, const Item& item) {
   if (item.kind != ItemKind::move) return held;  // has nothing of what follows
   held.has_lead = held.lead_arc = held.straight = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = false;
   held.commanded = true;
+  held.alone = false;
   held.doubt = {};
   held.lead = held.lead_from = Vec2{};
   held.lead_crosses = false;
@@ -196,7 +197,7 @@ void OffsetStage::reset() {
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
   start_erased_ = false;
-  trim_next_ = out_trim_ = bound_ = side_changed_ = amount_changed_ = false;
+  trim_next_ = out_trim_ = out_alone_ = bound_ = side_changed_ = amount_changed_ = false;
   given_ = true;
   unchecked_ = false;
   turn_ = {};
@@ -261,7 +262,7 @@ void OffsetStage::close() {
     if (held_at(last->index).item.move.comp.corner_arc && !last->start)  // where the arc of G39 leads to nobody knows
       return fail(bend_.index, Condition::comp_turn_open, bend_.source);
     last->joint.set(last->start ? Vec2{} : perpendicular(last->end, last->offset));
-    last->jointed = last->commanded = true;
+    last->jointed = last->commanded = last->alone = true;
     tail_ = last->joint.v[0];
   }
   if (check_joints(chain_.size())) release(chain_.size());
@@ -778,6 +779,7 @@ void OffsetStage::release(unsigned sections) {
     }
     held.straight = section.dead || section.oblique;
     held.commanded = start_commanded_ = section.commanded || !section.check;
+    held.alone = section.alone;
     held.bound_next = i + 1 < chain_.size() && chain_[i + 1].bound;
     chain_start_ = joint.v[joint.n - 1];
     chain_start_block_ = section.block;

@@ -113,6 +113,7 @@ class OffsetStage {
     bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
     bool trim_next = false;   ///< section: ... of the one behind, whose side is another
     bool commanded = true;    ///< section: the vector at its end may lie anywhere
+    bool alone = false;       ///< section: that vector goes by no block behind it
     bool bound_next = false;  ///< section: the one behind has a joint that depends on this one
     bool passed = false;      ///< marks: a read that comes behind it has gone in front of it
     ContourMemory::Doubt doubt;  ///< section: what was in doubt about the contour when its path was settled
@@ -238,7 +239,7 @@ class OffsetStage {
   Vec2 vector_;               ///< in force where pop() stands
   uint8_t axis_[2] = {0, 1};  ///< its plane
   Vec2 direction_;  ///< tangent at the end of the last move
-  bool out_commanded_ = true, out_trim_ = false;
+  bool out_commanded_ = true, out_trim_ = false, out_alone_ = false;
   bool bound_ = false;      ///< the blocks behind cannot be read again from here: a joint of theirs depends on one in front
   ContourMemory::Doubt doubt_;
   double feed_scale_ = 0;  ///< FeedRule::scale of the last move: what is inserted behind it goes on at its speed (M700 7.5 (4))

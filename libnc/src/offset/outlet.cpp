@@ -347,6 +347,7 @@ void OffsetStage::note_move(const Held& held, const AxisVec& compensated_end) {
 void OffsetStage::note_section(const Held& held) {
   out_commanded_ = held.commanded;
   out_trim_ = held.trim_next;
+  out_alone_ = held.alone;
   bound_ = held.bound_next;
   doubt_ = held.doubt;
 }
@@ -364,7 +365,7 @@ void OffsetStage::note_mark(const Held& held) {
   resume_.approach[0] = held.approach.h;
   resume_.approach[1] = held.approach.v;
   resume_.side_changed = held.side_changed;
-  resume_.given = held.given;
+  resume_.given = held.given || out_alone_;  // whether a block behind comes in time is known later than its mark
   resume_.feed_scale = feed_scale_;
   resume_.vector[0] = vector_.h;
   resume_.vector[1] = vector_.v;
