@@ -120,6 +120,13 @@ const PointUse* find_use(const Config& config, Role role, const PointUse& of) {
   return found == config.point_uses.end() ? nullptr : &*found;
 }
 
+// The drive on the bus does not home by points, so the point has to go to another device.
+void check_somebody_hears(TableReader* root, const Config& config, const PointUse& use) {
+  const hal::Point& point = config.points.at(static_cast<unsigned>(use.point));
+  if (config.canopen.nodes.empty() || point.bus != 0) return;
+  root->errors()->add(use.place.line, use.place.key, words_of(config, use) + (use.role == Role::kHomingRequest ? " goes nowhere" : " comes from nowhere") + ": its [[canopen.drive.axis]] has no homing, and point \"" + point.name + "\" is on no bus");
+}
+
 // An axis that its drive homes, and the drive on the bus that does: without a ladder program between them nothing but their points connects them.
 void check_drives_hear(TableReader* root, const Config& config) {
   if (!config.ladder.program.empty()) return;
@@ -127,6 +134,7 @@ void check_drives_hear(TableReader* root, const Config& config) {
     for (const PointUse& use : config.point_uses) {
       if (use.role != asks) continue;
       const PointUse* const drive = find_use(config, hears, use);
+      if (drive == nullptr) check_somebody_hears(root, config, use);
       if (drive == nullptr || drive->point == use.point) continue;
       root->errors()->add_twice(use.place, drive->place, words_of(config, use) + " and " + words_of(config, *drive) + " must be one point: without a ladder program nothing connects two");
     }

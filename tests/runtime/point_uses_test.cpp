@@ -161,6 +161,18 @@ TEST(PointUses, TheDriveHearsItsAxis) {
   EXPECT_EQ(all_of(errors_of(text + "[ladder]\nprogram = \"x.il\"\n")).find("must be one point"), std::string::npos);
 }
 
+// An axis that its drive homes, and a drive that does not: the request goes nowhere, unless a bus or the ladder program takes it on.
+TEST(PointUses, SomeDriveHearsTheAxis) {
+  std::string text = text_of([](const std::string& key) { return key; });
+  const std::size_t from = text.find("homing = ", text.find("[[canopen.drive.axis]]")), to = text.find('\n', from);
+  text.erase(from, to - from);
+  const std::string all = all_of(errors_of(text));
+  EXPECT_NE(all.find("axis[1].homing.request: the homing request of axis X goes nowhere: its [[canopen.drive.axis]] has no homing, and point \"home_x\" is on no bus"), std::string::npos) << all;
+  EXPECT_NE(all.find("axis[1].homing.done: the end of homing of axis X comes from nowhere: its [[canopen.drive.axis]] has no homing, and point \"x_homed\" is on no bus"), std::string::npos) << all;
+  EXPECT_EQ(all.find("axis Y"), std::string::npos) << all;
+  EXPECT_EQ(all_of(errors_of(text + "[ladder]\nprogram = \"x.il\"\n")).find("nowhere"), std::string::npos);
+}
+
 // A brake, or a request of homing, that the ladder program writes would get another value in the same scan.
 TEST(PointUses, WhatIsSetForAnAxisIsNotForTheLadder) {
   Config config;
