@@ -546,6 +546,7 @@ void Scan::follow_requests() noexcept {
   } else if (reset_phase_ == ResetPhase::kFeeder &&
              reset_done_.load(std::memory_order_acquire) == reset_rest_.load(std::memory_order_relaxed)) {
     reset_phase_ = ResetPhase::kHeld;
+    ++resets_;
     drives_off_ = machine_faulty();
   }
   // The reset is over when the reset button goes off. While the control is being ended the button is not waited for, because nothing starts anyway.
@@ -585,6 +586,7 @@ void Scan::publish() noexcept {
   out.optional_stop = optional_stop_;
   out.resetting = reset_phase_ != ResetPhase::kNone;
   out.reset_held = reset_phase_ == ResetPhase::kHeld;
+  out.resets = resets_;
   out.alarms = alarms_;
   ladder_->list_forces(&out.forces);
   out.overruns = statistics_.overruns.load(std::memory_order_relaxed);

@@ -437,6 +437,7 @@ class Scan {
   bool message_seen_[NC_MAX_SYSTEMS] = {};
   ResetPhase reset_phase_ = ResetPhase::kNone;
   unsigned reset_scans_ = 0;
+  std::uint64_t resets_ = 0;  // that are done
   AlarmList alarms_;
   std::uint64_t scan_ = 0;
   std::int64_t scan_time_ns_ = 0;

@@ -54,6 +54,7 @@ struct Snapshot {
   std::uint32_t single_block = 0, optional_stop = 0;  // set by the operator; one bit per part system
   bool resetting = false;
   bool reset_held = false;  // the reset is done, but plc.reset is still on
+  std::uint64_t resets = 0;  // that are done
   AlarmList alarms;
   std::uint64_t overruns = 0;      // scans that ended after the end of their slot
   std::uint64_t missed_slots = 0;  // slots without a scan

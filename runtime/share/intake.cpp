@@ -92,6 +92,10 @@ bool reached(const Request& request, const Machine::State& state, const std::arr
   }
 }
 
+std::string in_vain_text(const std::string& alarm) {
+  return "an alarm is there behind the reset" + (alarm.empty() ? "" : ": " + alarm);
+}
+
 }  // namespace
 
 const char* reason_text(AckReason reason) {
@@ -468,7 +472,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
 bool Intake::wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before, const Arrival& arrival) {
   for (Pending& pending : pending_) {
     if (pending.used) continue;
-    pending = {true, way, request, now_ns, arrival, before.runs};
+    pending = {true, way, request, now_ns, arrival, before.runs, before.resets};
     return true;
   }
   return false;
@@ -501,6 +505,12 @@ bool Intake::is_held(const Pending& pending) {
   return static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && (pending.request.system == kEverySystem ? since : since >> pending.request.system & 1u) != 0;
 }
 
+// Whether a reset is done and has left an alarm, whose cause is still there or has come meanwhile: waiting brings nothing, only another reset does.
+bool Intake::is_in_vain(const Pending& pending, const Machine::State& state) const {
+  const bool done = state.resets != pending.resets && (!state.resetting || state.reset_held);
+  return static_cast<RequestKind>(pending.request.kind) == RequestKind::kReset && done && state.alarmed;
+}
+
 void Intake::tick(const Now& now, std::vector<Ack>* acks) {
   if (control_ != nullptr && now.steady_ns > lease_end_ns_) lose_control();
   bool any = false;
@@ -519,6 +529,8 @@ void Intake::tick(const Now& now, std::vector<Ack>* acks) {
       settle(&pending, {AckState::kDone, AckReason::kNone, scope_text(pending.request, state.system_count)}, now.wall_ns, acks);
     else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)
       settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came", RefusalCause::kAlarm}, now.wall_ns, acks);
+    else if (is_in_vain(pending, state))
+      settle(&pending, {AckState::kFailed, AckReason::kRefused, in_vain_text(machine_.alarm()), RefusalCause::kAlarm}, now.wall_ns, acks);
     else if (is_held(pending))
       settle(&pending, {AckState::kFailed, AckReason::kRefused, answer_text(Answer::kTakenBack), refusal_cause(Answer::kTakenBack)}, now.wall_ns, acks);
     else if (now.steady_ns - pending.since_ns > kReachNs)

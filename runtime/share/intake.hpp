@@ -42,7 +42,8 @@ class Machine {
  public:
   struct State {
     Mode mode = Mode::kAuto;
-    bool resetting = false, alarmed = false;
+    bool resetting = false, reset_held = false, alarmed = false;  // held: it is done, and its button is still on
+    std::uint64_t resets = 0;  // that are done
     unsigned system_count = 1;
     std::array<unsigned, NC_MAX_SYSTEMS> axis_count{};
     std::array<std::uint8_t, NC_MAX_SYSTEMS> run_state{};  // nc_run_state
@@ -72,6 +73,8 @@ class Machine {
   // The program that was selected is still being checked; and what is to be said of it, also when it was not.
   virtual bool checks(unsigned /*system*/) { return false; }
   virtual std::string remark(unsigned /*system*/) { return {}; }
+  // The alarm that stops the machine: "R16 Door open". "" when it has no text yet.
+  virtual std::string alarm() { return {}; }
   // What the last answer means, with its reason when that is known.
   virtual std::string explain(Answer answer) { return answer_text(answer); }
 };
@@ -133,6 +136,7 @@ class Intake {
     std::int64_t since_ns = 0;
     Arrival arrival{};
     std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};  // State::runs before the command
+    std::uint64_t resets = 0;                          // State::resets before it
   };
   struct Verdict {
     AckState state = AckState::kDone;
@@ -149,6 +153,7 @@ class Intake {
   Answer give(const RequestRow& row, const Request& request, const Arrival& arrival);
   bool is_reached(const Pending& pending, const Machine::State& state);
   bool is_held(const Pending& pending);
+  bool is_in_vain(const Pending& pending, const Machine::State& state) const;
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;
   Client* client_of(const Request& request, Way way, std::int64_t now_ns);

@@ -2,6 +2,7 @@
 // Threads of the segment. See service.hpp.
 #include "runtime/share/service.hpp"
 
+#include "runtime/share/alarm_entry.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::share {
@@ -26,7 +27,9 @@ Machine::State RuntimeMachine::state() {
   State state;
   state.mode = snapshot.mode;
   state.resetting = snapshot.resetting;
+  state.reset_held = snapshot.reset_held;
   state.alarmed = snapshot.stopped_by_alarm();
+  state.resets = snapshot.resets;
   state.system_count = config.nc.system_count;
   state.max_feed_override = config.nc.max_feed_override;
   for (unsigned s = 0; s < state.system_count; ++s) {
@@ -39,6 +42,19 @@ Machine::State RuntimeMachine::state() {
     if (selected.any) state.program[s] = selected.mdi ? "MDI" : file_name(programs_.at(selected.file).path);
   }
   return state;
+}
+
+std::string RuntimeMachine::alarm() {
+  const Snapshot snapshot = runtime_.snapshot();
+  const FeederInfo info = runtime_.info();
+  for (unsigned i = 0; i < snapshot.alarms.count; ++i) {
+    const ActiveAlarm& alarm = snapshot.alarms.alarm[i];
+    Entry entry{};
+    if (alarm.acknowledged || is_warning(alarm.id) || !describe_alarm(runtime_, info, alarm, &entry)) continue;
+    const std::string axis(text_of(entry.axis));
+    return std::string(text_of(entry.code)) + " " + std::string(text_of(entry.text)) + (axis.empty() ? "" : ", axis " + axis);
+  }
+  return {};
 }
 
 Answer RuntimeMachine::load_mdi(unsigned system, const std::string& blocks) {

@@ -46,6 +46,7 @@ class RuntimeMachine final : public Machine {
   Answer release(const std::string& device) override { return runtime_.release(device); }
   bool checks(unsigned system) override { return runtime_.start_gate() != nullptr && runtime_.start_gate()->waits(system); }
   std::string remark(unsigned system) override { return runtime_.start_gate() != nullptr ? runtime_.start_gate()->remark(system) : std::string(); }
+  std::string alarm() override;
   std::string explain(Answer answer) override { return runtime_.explain(answer); }
 
  private:

@@ -81,4 +81,29 @@ TEST(Reset, EndsWhateverTheFeederHasSeenOfTheStart) {
   }
 }
 
+// Who waits for a reset knows by the count that it is done, whatever alarm is there behind it.
+TEST(Reset, IsCountedWhenItIsDone) {
+  const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml() + "[signals]\n\"plc.alarm.1\" = \"in0\"\n");
+  nc::rt::VirtualClock clock;
+  nc::hal::SimMachine machine(config.sim, config.points);
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error)) << error;
+  machine.set_input(static_cast<unsigned>(config.points.find("in0")), 1);
+  for (unsigned n = 0; n < 5; ++n) runtime->step();
+  ASSERT_TRUE(runtime->snapshot().stopped_by_alarm());
+  EXPECT_EQ(runtime->snapshot().resets, 0u);
+  for (unsigned count = 1; count <= 2; ++count) {
+    ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+    for (unsigned n = 0; n < 100 && runtime->snapshot().resets != count; ++n) {
+      EXPECT_TRUE(runtime->snapshot().resetting || n == 0);
+      runtime->step();
+    }
+    EXPECT_EQ(runtime->snapshot().resets, count);
+    EXPECT_TRUE(runtime->snapshot().stopped_by_alarm()) << "its cause is still there, and is seen no later than the end of the reset";
+  }
+}
+
 }  // namespace

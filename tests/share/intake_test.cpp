@@ -21,7 +21,7 @@ struct FakeMachine final : Machine {
   std::vector<Command> executed;
   std::vector<std::string> mdi, selected, forced, released;
   std::vector<nc::rt::RestartWish> places;
-  std::string why;
+  std::string why, alarm_text;
   std::vector<unsigned> held;  // at once
   std::vector<std::uint64_t> awaited;  // holds, at their turns
   std::uint64_t hold_at_once(unsigned system) override {
@@ -70,6 +70,7 @@ struct FakeMachine final : Machine {
     released.push_back(device);
     return answer;
   }
+  std::string alarm() override { return alarm_text; }
   std::string explain(Answer given) override { return why.empty() ? answer_text(given) : why; }
   std::size_t total() const {
     return executed.size() + mdi.size() + selected.size() + forced.size() + released.size();
@@ -620,6 +621,47 @@ TEST_F(IntakeRules, TheStateIsThatOfThePartSystemsThatAreNamed) {
   EXPECT_TRUE(outcome(RequestKind::kFeedHold, kEverySystem, NC_STATE_HOLD, NC_STATE_HOLD, 0));
   EXPECT_FALSE(outcome(RequestKind::kReset, 1, NC_STATE_HOLD, NC_STATE_IDLE, 0)) << "a reset is of all";
   EXPECT_TRUE(outcome(RequestKind::kReset, 1, NC_STATE_IDLE, NC_STATE_IDLE, 0));
+}
+
+// A reset whose cause is still there is answered when it is done, with the alarm: an operator who presses it with the door open is not left without a word until it is too late.
+TEST_F(IntakeRules, AResetThatLeavesAnAlarmSaysSoAtOnce) {
+  take_control();
+  machine_.now.run_state[0] = NC_STATE_ALARM;
+  machine_.now.alarmed = true;
+  machine_.alarm_text = "R16 Door open";
+  EXPECT_EQ(give(RequestKind::kReset, 2).state, state(AckState::kAccepted));
+  machine_.now.resetting = true;
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty()) << "the reset goes on";
+  machine_.now.resetting = false;
+  machine_.now.resets = 1;
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kFailed));
+  EXPECT_EQ(acks_[0].reason, reason(AckReason::kRefused));
+  EXPECT_EQ(acks_[0].refusal, static_cast<std::uint32_t>(RefusalCause::kAlarm));
+  EXPECT_EQ(text_of(acks_[0].text), "an alarm is there behind the reset: R16 Door open");
+  // A button that is held does not keep the answer back, and a reset that leaves nothing is done.
+  EXPECT_EQ(give(RequestKind::kReset, 3).state, state(AckState::kAccepted));
+  machine_.now.resets = 2;
+  machine_.now.resetting = true;  // the one before is done, and this one goes on
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty());
+  machine_.now.reset_held = true;
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kFailed));
+  machine_.now.reset_held = false;
+  EXPECT_EQ(give(RequestKind::kReset, 4).state, state(AckState::kAccepted));
+  machine_.now.resets = 3;
+  machine_.now.resetting = machine_.now.alarmed = false;
+  machine_.now.run_state[0] = NC_STATE_IDLE;
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kDone));
 }
 
 // Somebody who opens a door when his hold is answered must find the axes at rest: RUN_HOLD begins while they still brake.
