@@ -26,7 +26,7 @@ class Faults:
         return not self.control.alarms() and set(self.drives.states()) == {"enabled"} and self.control.state() == "idle"
 
     def reset(self):
-        """Whether the machine is clean behind a reset. One that comes while its cause is still there is answered when its lifespan is over, and pressed again."""
+        """Whether the machine is clean behind a reset. One that leaves an alarm says so, and is pressed again."""
         self.control.press("reset", good=False, lifespan_ms=1000)
         return until(self.clean, 4 if not self.control.alarms() else 0)
 
