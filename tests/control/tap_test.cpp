@@ -828,6 +828,56 @@ TEST(TapSpindles, EverySelectedSpindleTurnsWithTheTap) {  // 10.6
   EXPECT_NEAR(deepest[2], 10 / kLead, 0.01);
 }
 
+// What selects a spindle may begin anew with a reset. The one whose tap stands in the work goes on with its axis, and no other.
+TEST(TapSpindles, ATapThatAResetHasLeftInItsHoleKeepsItsSpindle) {
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    tapping_machine(false)(c);
+    c.system[0].spindle_count = 2;
+  });
+  bench.at(0, 0, 10);
+  Drive drive(bench, "G84 Z-8. R2. S600 F1.5 ,R1\nG80\nM30");
+  const double from[2] = {0.3, 0.7};
+  double turns[2] = {from[0], from[1]}, worst = 0;
+  drive.in.spindle_select = 2;
+  const auto z = [&] { return drive.out.command.v[2]; };
+  const auto step = [&] {
+    drive.press_start();
+    for (unsigned i = 0; i < 2; ++i) {
+      drive.in.spindle[i] = {};
+      drive.in.spindle[i].turns_valid = true;
+      drive.in.spindle[i].turns = turns[i];
+    }
+    drive.step(50);
+    for (unsigned i = 0; i < 2; ++i)
+      if ((drive.out.spindle_synchronous >> i & 1) != 0) turns[i] = from[i] + drive.out.spindle_turns;
+    if (drive.out.spindle_synchronous != 0) worst = std::max(worst, std::fabs(2 - z() - kLead * (turns[1] - from[1])));
+  };
+  const auto until = [&](auto done) {
+    for (unsigned n = 0; n < 20000; ++n) {
+      if (done()) return true;
+      step();
+    }
+    return false;
+  };
+  ASSERT_TRUE(until([&] { return drive.out.tapping && z() < -3; }));
+  drive.in.reset = true;
+  drive.in.spindle_select = 1;
+  ASSERT_TRUE(until([&] { return drive.out.state == NC_STATE_IDLE; }));
+  drive.in.reset = false;
+  for (unsigned n = 0; n < 100; ++n) step();
+  ASSERT_TRUE(drive.out.tap_retract_possible);
+  EXPECT_EQ(drive.out.spindle_synchronous, 2);
+  EXPECT_EQ(drive.out.spindle_encoder, 2);
+  drive.in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return z() > 2 - 1e-3; })) << z() << " " << drive.alarm();
+  EXPECT_LT(worst, 0.1) << "mm beside the thread";
+  EXPECT_EQ(turns[0], from[0]);
+  drive.in.tap_retract = false;
+  drive.in.manual[2] = {NC_MANUAL_JOG, 5, 0};
+  ASSERT_TRUE(until([&] { return z() > 6; }));
+  EXPECT_EQ(drive.out.spindle_selected, 1) << "out of the hole it is let go";
+}
+
 TEST(TapSpindles, ASpindleThatIsACAxisTurnsAsTheAxis) {  // 10.5
   Bench bench(NC_DIALECT_M700, [](nc_config& c) {
     tapping_machine(false)(c);

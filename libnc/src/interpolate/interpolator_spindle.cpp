@@ -33,8 +33,9 @@ bool Interpolator::spindle_reversed(const nc_inputs& in) const {
 void Interpolator::follow_spindles(const nc_inputs& in) {
   losing_ = false;
   // M700 10.6.1, relation (3) to (5): the selection is not to be changed while the spindle cuts a thread. What is in the work goes on.
+  // So does what a reset has left there until it is let go: another spindle's encoder would draw the axis out of the hole. Behind a power cut the selection is not known.
   const bool engaged = tapping_ != 0 || cutting_thread();
-  if (!engaged) {
+  if (!engaged && (!tap_.held || tap_.adopts)) {
     const unsigned count = spindles_.count();
     if (count > 1) spindles_.select(static_cast<uint8_t>(in.spindle_select & ((1u << count) - 1)));
     encoder_ = in.spindle_encoder == 0 ? spindles_.lead() + 1 : in.spindle_encoder <= count ? in.spindle_encoder : 0;
