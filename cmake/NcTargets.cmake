@@ -24,11 +24,22 @@ function(nc_room_around target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Sanitize>:-O0>)
 endfunction()
 
+# In a release the programs leave out the functions of the rooms that they do not use, and with them libraries that a start would take time for (NC_WITHOUT_SERVICES
+# below). An instrumented build keeps everything.
+set(NC_DROPS_UNUSED OFF)
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT NC_SANITIZE AND NOT NC_COVERAGE)
+  set(NC_DROPS_UNUSED ON)
+endif()
+
 # nc_host_options(TARGET): ordinary hosted C++20 with the project's warnings.
 function(nc_host_options target)
   set_target_properties(${target} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
                         C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic)
+  get_target_property(type ${target} TYPE)
+  if(NC_DROPS_UNUSED AND type STREQUAL "STATIC_LIBRARY")
+    set(sections -ffunction-sections -fdata-sections)
+  endif()
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic ${sections})
   if(NC_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -53,7 +64,9 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_LIBRARY_ARCHITECTURE AND EXISTS 
 endif()
 
 # nc_program(NAME MAIN LIBS...): an installed executable from one file, if that file exists. All symbols are bound at start-up, so that none is
-# looked up during a scan, and it depends only on the libraries that it uses.
+# looked up during a scan, and it depends only on the libraries that it uses. Which these are the linker says before it drops what is not used: so a program that
+# offers no services has the property NC_WITHOUT_SERVICES, and is not linked with the libraries that only services need (runtime/CMakeLists.txt). If it comes to use
+# one of them, it does not link.
 function(nc_program name main)
   if(NOT EXISTS ${main})
     return()
@@ -61,6 +74,9 @@ function(nc_program name main)
   add_executable(${name} ${main})
   nc_host_options(${name})
   target_link_options(${name} PRIVATE -Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
+  if(NC_DROPS_UNUSED)
+    target_link_options(${name} PRIVATE -Wl,--gc-sections)
+  endif()
   nc_link_rooms(${name} PRIVATE ${ARGN})
   if(name MATCHES "^nc(rtd|dds|ctl)$")
     set(component ncrtd)

@@ -18,16 +18,12 @@ class InternPool {
     mask_ = capacity_power_of_two - 1;
   }
   /// The newest value, nullptr = none yet; and its id.
-  const T* newest() const { return filled_ == 0 ? nullptr : &ring_[newest_id() & mask_]; }
+  const T* newest() const { return newest_; }
   uint32_t newest_id() const { return (next_ - 1) & kIds; }
   /// Enters `value` and returns its id. When it equals the newest value, that one is used again.
   uint32_t intern(const T& value) {
-    if (filled_ > 0 && *newest() == value) return newest_id();
-    const uint32_t id = next_;
-    ring_[id & mask_] = value;
-    next_ = (id + 1) & kIds;
-    if (filled_ <= mask_) ++filled_;
-    return id;
+    if (newest_ != nullptr && *newest_ == value) return newest_id();
+    return enter(value);
   }
   const T& operator[](uint32_t id) const { return ring_[id & mask_]; }
   bool holds(uint32_t id) const { return id <= kIds && ((next_ - 1 - id) & kIds) < filled_; }
@@ -35,7 +31,19 @@ class InternPool {
   void count_from(uint32_t first) { next_ = first & kIds; }
 
  private:
+  /// A new value, which comes rarely: it is kept out of the way of those who ask for one that is there.
+  [[gnu::noinline]] uint32_t enter(const T& value) {
+    const uint32_t id = next_;
+    T& place = ring_[id & mask_];
+    place = value;
+    newest_ = &place;
+    next_ = (id + 1) & kIds;
+    if (filled_ <= mask_) ++filled_;
+    return id;
+  }
+
   T* ring_ = nullptr;
+  const T* newest_ = nullptr;  ///< nullptr = none yet
   static constexpr uint32_t kIds = ~0u >> 1;
   uint32_t mask_ = 0;
   uint32_t next_ = 0;    ///< id of the next new value

@@ -107,6 +107,7 @@ nc_status nc_answer(nc_control* c, unsigned system, const nc_world* given) {
   if (!nc::take_struct(given, &world)) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)
     if (!std::isfinite(world.machine.v[i]) || (world.skipped && !std::isfinite(world.skip_machine.v[i]))) return NC_E_ARGUMENT;
+  for (unsigned i = c->config.system[system].axis_count; i < NC_MAX_AXES; ++i) world.machine.v[i] = world.skip_machine.v[i] = 0;
   if (!std::isfinite(world.power_on_ms) || !std::isfinite(world.run_ms)) return NC_E_ARGUMENT;
   if (!are_tool_angles(world.tool_angle)) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // the scan answers

@@ -226,7 +226,8 @@ Committed Commit::commit(const Item& item, const Named& named) {
     const bool tilted = move.circular && shape == nullptr && !to_machine.only_translates() && !to_machine.keeps_plane(move.plane_axis[0], move.plane_axis[1]);
     if (tilted) shape = &arc_in_space_;
     // The move begins exactly where the one before ended, to the last bit.
-    AxisVec end = to_machine.apply(move.end);
+    const bool few = axis_count_ <= kFewAxes;
+    AxisVec end = few ? to_machine.apply_to<kFewAxes>(move.end) : to_machine.apply(move.end);
     if (shape != nullptr) {
       commit_shape(move, to_machine, *shape);
       if (jumps_at_pole(curve_)) return Committed::at_pole;
@@ -238,8 +239,8 @@ Committed Commit::commit(const Item& item, const Named& named) {
       if (begins_elsewhere(move) && !begin_on_rounding(move)) return Committed::displaced;
       curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, length_rotary_);
     } else {
-      circle_ = Circle{};
-      make_line(machine_, end, axis_count_, length_rotary_, &curve_);
+      if (circle_.sweep != 0) [[unlikely]] circle_ = Circle{};
+      few ? make_line<kFewAxes>(machine_, end, axis_count_, length_rotary_, &curve_) : make_line<kMaxAxes>(machine_, end, axis_count_, length_rotary_, &curve_);
     }
     if (curve_.length < kNoLength) {
       machine_ = end;

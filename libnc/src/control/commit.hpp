@@ -152,7 +152,6 @@ class Commit {
     passed->length += curve_.length;
     static_assert(sizeof passed->machine == sizeof machine_);
     std::memcpy(&passed->machine, &machine_, sizeof machine_);
-    std::memcpy(&passed->work, &move.work, sizeof move.work);
   }
   /// Short forms of commit() and to_public() for a mark, to which commit() gives only its serial.
   void commit_mark() { ++last_serial_; }

@@ -112,7 +112,10 @@ class PartSystem {
   void take();
   void begin_wanted_interrupt();
   void give(const Item& item, nc_item* out);
-  bool pass(const Item& item, uint64_t before, nc_passed* passed);
+  bool passes(const Item& item, bool behind_move) const;
+  void count_passed(const Item& item, nc_passed* passed);
+  void note_passed(const Item& item, const Item* move, nc_passed* passed);
+  nc_status pass_row(uint32_t& budget, uint64_t before, nc_passed* passed);
   bool pop_held(Item& out) { return stages_.pop(out); }
   // What follows after an item has been given out.
   void note_mark(const Item& mark);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Offline: the items of a part system given out one after the other, passed over, or looked through for a place to restart from.
+#include <cstring>
+
 #include "control/part_system_stream.hpp"
 
 namespace nc {
@@ -51,43 +53,81 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   }
 }
 
-/// Counts an item instead of giving it out; `before`: number of moves that had been passed before this call. False: it has to be given.
-[[gnu::always_inline]] inline bool PartSystem::pass(const Item& item, uint64_t before, nc_passed* passed) {
-  if (watched_) [[unlikely]] return false;
+/// A move that is counted instead of being given out; and a mark, of which only those inside a block are.
+[[gnu::always_inline]] inline bool PartSystem::passes(const Item& item, bool behind_move) const {
+  if (item.kind == ItemKind::move) return item.move.kind != NC_MOVE_SKIP;
+  return item.kind == ItemKind::mark && !item.mark.report && behind_move;
+}
+
+/// Counts an item that passes and has been committed.
+[[gnu::always_inline]] inline void PartSystem::count_passed(const Item& item, nc_passed* passed) {
   if (item.kind == ItemKind::move) {
-    const Move& move = item.move;
-    if (move.kind == NC_MOVE_SKIP) [[unlikely]] return false;
     ++passed->moves;
     ++passed->moves_in_row;
     passed->marks = 0;
-    commit_.count_move(move, passed);
+    commit_.count_move(item.move, passed);
   } else {
-    if (item.kind != ItemKind::mark || item.mark.report || passed->moves == before) return false;
     ++passed->marks;
     passed->moves_in_row = 0;
     beside_ = item.mark.beside;
     note_mark(item);
   }
+}
+
+/// What is known of the item passed last, and of the last move among the items before it, nullptr = there is none.
+[[gnu::always_inline]] inline void PartSystem::note_passed(const Item& item, const Item* move, nc_passed* passed) {
   pulled_ = ItemKind::mark;  // nothing that was given out last: nc_move_point() has no move
   pulled_in_hole_ = item.in_hole;
   passed->source = item.source;
-  take();
-  return true;
+  static_assert(sizeof passed->work == sizeof move->move.work);
+  if (move != nullptr) std::memcpy(&passed->work, &move->move.work, sizeof passed->work);
+}
+
+/// Passes the items in front of the interpreter's queue that nothing concerns but commit: lines, and marks inside a block. What next() and pump() ask with every item
+/// and no such item changes is asked once here. Any other item, and one that commit refuses, is left to them (NC_OK). `before`: number of moves that had been passed
+/// before this call of nc_pull_past().
+nc_status PartSystem::pass_row(uint32_t& budget, uint64_t before, nc_passed* passed) {
+  if (watched_ || commit_watch_ != nullptr || staged_count_ != 0 || !stages_.idle() || answered_block_ != 0 || shape_left_ != nullptr) return NC_OK;
+  Item *item = nullptr, *last = nullptr, *last_move = nullptr;
+  nc_status status = interpreter.next(budget, &item);
+  while (status == NC_OK && passes(*item, passed->moves != before)) {
+    if (item->kind == ItemKind::mark) {
+      commit_.commit_mark();
+    } else {
+      if (item->move.shape != 0 || may_be_held(*item) || commit_.commit(*item, named(*item)) != Committed::yes) break;
+      last_move = item;
+    }
+    count_passed(*item, passed);
+    last = item;
+    interpreter.queue().pop();
+    const bool full = passed->moves_in_row >= passed->most_in_row && passed->most_in_row != 0;
+    if (interpreter.queue().empty()) {
+      note_passed(*last, last_move, passed);
+      last = last_move = nullptr;  // their places are used again for what is made next
+    }
+    status = full ? NC_BUDGET : interpreter.next(budget, &item);
+  }
+  if (last != nullptr) note_passed(*last, last_move, passed);
+  return status;
 }
 
 nc_status PartSystem::pull_past(uint32_t budget, nc_passed* passed, nc_item* out) {
   const uint64_t before = passed->moves;
   for (;;) {
+    nc_status status = pass_row(budget, before, passed);
+    if (status != NC_OK) return status;
     begin_wanted_interrupt();
     const Item* item = nullptr;
-    const nc_status status = pump(budget, &item);
+    status = pump(budget, &item);
     if (status != NC_OK) return status;
     if (item == nullptr) continue;
-    if (!pass(*item, before, passed)) {
+    if (watched_ || !passes(*item, passed->moves != before)) {
       give(*item, out);
       return NC_OK;
     }
-    if (passed->moves_in_row >= passed->most_in_row && passed->most_in_row != 0) [[unlikely]] return NC_BUDGET;
+    count_passed(*item, passed);
+    note_passed(*item, item->kind == ItemKind::move ? item : nullptr, passed);
+    take();
   }
 }
 

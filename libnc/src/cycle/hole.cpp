@@ -61,8 +61,12 @@ bool next_stroke(const Hole& hole, HoleProgress& progress, CycleStep* step) {
       progress.row = first_cut(table);
       continue;
     }
-    if (does_nothing(hole, stroke)) continue;
-    *step = {stroke.kind, stroke.to, stroke.spindle, stroke.flags, coordinate(hole, stroke.to, progress)};
+    if (!goes_along(stroke.kind) && does_nothing(hole, stroke)) continue;
+    step->kind = stroke.kind;  // one by one: as a whole it would be copied
+    step->level = stroke.to;
+    step->spindle = stroke.spindle;
+    step->flags = stroke.flags;
+    step->to = coordinate(hole, stroke.to, progress);
     if (stroke.to == Level::peck && progress.depth == hole.bottom) step->level = Level::bottom;  // the last cut is the one that the figures have at the bottom
     return true;
   }

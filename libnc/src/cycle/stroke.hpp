@@ -47,6 +47,10 @@ enum class StrokeKind : uint8_t {
   again                      ///< on with the first stroke that cuts
 };
 
+/// Along the drilling axis, as most strokes go.
+constexpr bool goes_along(StrokeKind kind) { return kind <= StrokeKind::feed; }
+static_assert(static_cast<unsigned>(StrokeKind::rapid) == 0 && static_cast<unsigned>(StrokeKind::feed) == 1);
+
 /// Where a stroke goes.
 enum class Level : uint8_t {
   none,
@@ -82,6 +86,7 @@ struct CycleTable {
   bool takes_widths;   ///< ,I and ,J hold (M700 13.1.1, "programmable in-position width command in fixed cycle")
   bool pecks;          ///< it wants the depth of a cut
   bool shifts;         ///< it goes beside the hole
+  bool moves_in_plane; ///< it does that, or goes round in the hole
   bool turns_spindle;  ///< it has M codes of the spindle
   bool restarts;       ///< one of them is that of the direction in which the spindle turned before
   bool leaves_rapidly; ///< it goes to its exit in rapid traverse

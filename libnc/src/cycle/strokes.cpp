@@ -238,10 +238,11 @@ constexpr Stroke kFaceUpwards[] = {
 
 template <unsigned count>
 constexpr CycleTable table(const Stroke (&rows)[count], bool takes_widths) {
-  CycleTable all{rows, count, takes_widths, false, false, false, false, false};
+  CycleTable all{rows, count, takes_widths, false, false, false, false, false, false};
   for (const Stroke& row : rows) {
     all.pecks = all.pecks || row.kind == again;
     all.shifts = all.shifts || row.to == L::beside;
+    all.moves_in_plane = all.shifts || row.kind == circle_in || all.moves_in_plane;
     all.turns_spindle = all.turns_spindle || row.kind == spindle;
     all.restarts = all.restarts || row.spindle == S::as_before;
     all.leaves_rapidly = all.leaves_rapidly || (row.kind == rapid && row.to == L::exit);

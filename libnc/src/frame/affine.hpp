@@ -55,6 +55,14 @@ class Affine {
     for (unsigned i = 0; i < kMaxAxes; ++i) q[i] = p[i] + offset_[i];
     return q;
   }
+  /// The same of no more than kAxes axes.
+  template <unsigned kAxes>
+  AxisVec apply_to(const AxisVec& p) const {
+    if (!translates_) [[unlikely]] return apply_linear(p);
+    AxisVec q;
+    for (unsigned i = 0; i < kAxes; ++i) q[i] = p[i] + offset_[i];
+    return q;
+  }
   AxisVec apply_inverse(const AxisVec& q) const {
     if (!translates_) [[unlikely]] return inverse().apply_linear(q);
     AxisVec p;

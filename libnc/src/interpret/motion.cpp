@@ -42,12 +42,13 @@ void apply_length(InForce& in, uint32_t commanded) {
 
 /// The coordinates of `named` for the axes of its bits, those of `others` for the rest. The two of a pair are chosen at once: what is written one by one and read
 /// in pairs right behind it, as every line would be, has to wait for the stores.
+template <unsigned kAxes>
 inline AxisVec choose(uint32_t axes, const AxisVec& named, const AxisVec& others) {
-  static_assert(kMaxAxes % 2 == 0 && sizeof(double) == sizeof(uint64_t));
+  static_assert(kAxes % 2 == 0 && sizeof(double) == sizeof(uint64_t));
   constexpr uint64_t kAll = ~uint64_t{0};
   static constexpr uint64_t kPair[4][2] = {{0, 0}, {kAll, 0}, {0, kAll}, {kAll, kAll}};
   AxisVec chosen;
-  for (unsigned i = 0; i < kMaxAxes; i += 2) {
+  for (unsigned i = 0; i < kAxes; i += 2) {
     const uint64_t(&mask)[2] = kPair[axes >> i & 3];
     for (unsigned k = 0; k < 2; ++k)
       chosen[i + k] = std::bit_cast<double>((std::bit_cast<uint64_t>(named[i + k]) & mask[k]) | (std::bit_cast<uint64_t>(others[i + k]) & ~mask[k]));
@@ -56,6 +57,7 @@ inline AxisVec choose(uint32_t axes, const AxisVec& named, const AxisVec& others
 }
 
 /// `others`, but `to` on one axis: the same for the strokes of holes.
+template <unsigned kAxes>
 inline AxisVec with_one(unsigned axis, double to, const AxisVec& others) {
   struct Rows {
     uint64_t of[kMaxAxes][kMaxAxes] = {};
@@ -66,7 +68,7 @@ inline AxisVec with_one(unsigned axis, double to, const AxisVec& others) {
   static constexpr Rows kMasks;
   const uint64_t(&mask)[kMaxAxes] = kMasks.of[axis];
   AxisVec chosen;
-  for (unsigned i = 0; i < kMaxAxes; ++i)
+  for (unsigned i = 0; i < kAxes; ++i)
     chosen[i] = std::bit_cast<double>((std::bit_cast<uint64_t>(to) & mask[i]) | (std::bit_cast<uint64_t>(others[i]) & ~mask[i]));
   return chosen;
 }
@@ -104,35 +106,49 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
 }
 
 /// Begins a move, with everything that is the same for all moves. Inlined with begin_moved() where lines are made, because there are a handful in every hole.
-[[gnu::always_inline]] inline Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
+/// The axes are at its end already (State::machine).
+[[gnu::always_inline]] inline Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target) {
   Move& move = in.emit_move(start, target);
   if (stands_beside(in.state.comp)) [[unlikely]] lead_back_to_path(in, move);
   if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
   move.inch = in.state.modal.is(Function::inch);
   move.transform = transform;
-  in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
   if (in.state.moved_side != in.state.comp.side) [[unlikely]] note_side(in, start, target, move);
   if (leads_beside(in.state)) [[unlikely]] {
-    in.state.moved_space = move.space = space_vector(in, machine);
+    in.state.moved_space = move.space = space_vector(in, in.state.machine);
     in.state.length_changed_by_handle = false;
   }
   return move;
 }
 
+[[gnu::noinline]] TransformId new_translation(BlockContext& in, const AxisVec& offset) { return in.transforms.intern(Affine::translation(offset)); }
+
 Move& begin_move(BlockContext& in, const Affine& to_machine, const AxisVec& start, const AxisVec& target) {
-  return begin_any_move(in, in.transforms.intern(to_machine), start, target, to_machine.apply(target));
+  in.state.machine = to_machine.apply(target);
+  return begin_any_move(in, in.transforms.intern(to_machine), start, target);
 }
 
+/// The shift from the compensation frame to the machine for the lines of a block, and where the next one begins.
+template <unsigned kAxes>
+struct Shifted {
+  AxisVec offset, start;
+  explicit Shifted(const InForce& in) {
+    const AxisVec& z = in.zero();
+    for (unsigned i = 0; i < kAxes; ++i) offset[i] = z[i] + in.state.applied[i];
+    for (unsigned i = 0; i < kAxes; ++i) start[i] = in.state.machine[i] - offset[i];
+  }
+};
+
 /// Begins a move whose map to the machine only shifts. In nearly every block the newest map is the same, and no new one is made.
-[[gnu::always_inline]] inline Move& begin_moved(BlockContext& in, const AxisVec& offset, const AxisVec& start, const AxisVec& target) {
+template <unsigned kAxes>
+[[gnu::always_inline]] inline Move& begin_moved(BlockContext& in, const Shifted<kAxes>& from, const AxisVec& target) {
   const Affine* newest = in.transforms.newest();
-  const bool same = newest != nullptr && newest->translates_by(offset);
-  const TransformId transform = same ? in.transforms.newest_id() : in.transforms.intern(Affine::translation(offset));
-  AxisVec machine;
-  for (unsigned i = 0; i < kMaxAxes; ++i) machine[i] = target[i] + offset[i];
-  return begin_any_move(in, transform, start, target, machine);
+  const bool same = newest != nullptr && newest->translates_by(from.offset);
+  const TransformId transform = same ? in.transforms.newest_id() : new_translation(in, from.offset);
+  for (unsigned i = 0; i < kAxes; ++i) in.state.machine[i] = target[i] + from.offset[i];
+  return begin_any_move(in, transform, from.start, target);
 }
 
 /// Gives a move its shape, where programmed coordinates are not those of the axes, and sets where the axes end. `before`: where they stand.
@@ -389,20 +405,41 @@ void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t comman
 
 }  // namespace
 
-void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
-  if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
-  if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
-  // This is done in nearly every block: as frame_of_move() does, but without copying a MoveFrame.
-  apply_length(in, commanded);
-  const AxisVec offset = offset_in_force(in);
-  AxisVec start;
-  for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
-  const AxisVec end = choose(commanded, target, start);  // an axis that is not named stays where it is
-  if (same_place(start, end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
-  Move& move = begin_moved(in, offset, start, end);
+namespace {
+
+/// This is done in nearly every block: as frame_of_move() does, but without copying a MoveFrame, and for kAxes axes, of which the part system has no more.
+template <unsigned kAxes>
+void make_shifted_line(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+  const Shifted<kAxes> from(in);
+  const AxisVec end = choose<kAxes>(commanded, target, from.start);  // an axis that is not named stays where it is
+  if (same_place(from.start, end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
+  Move& move = begin_moved(in, from, end);
   set_style(in, move, style);
   if (style.transparent) [[unlikely]] take_vectors_away(in, move, commanded);
   if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
+}
+
+template <unsigned kAxes>
+void make_stroke(BlockContext& in, unsigned axis, double to, const LinearStyle& style) {
+  const Shifted<kAxes> from(in);
+  Move& move = begin_moved(in, from, with_one<kAxes>(axis, to, from.start));
+  set_style(in, move, style);
+  if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
+}
+
+}  // namespace
+
+void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
+  if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
+  if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
+  apply_length(in, commanded);
+  in.axis_count <= kFewAxes ? make_shifted_line<kFewAxes>(in, target, commanded, style) : make_shifted_line<kMaxAxes>(in, target, commanded, style);
+}
+
+bool goes_along_axis(InForce& in, unsigned axis, double to) {
+  if (program_mapped(in) || (in.state.special & kSpecialMap) != 0) return true;
+  apply_length_to(in.state, axis);
+  return !(std::fabs(in.state.machine[axis] - (in.zero()[axis] + in.state.applied[axis]) - to) <= kNoMotion);
 }
 
 void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& style) {
@@ -411,15 +448,7 @@ void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& st
     target[axis] = to;
     return move_linear(in, target, 1u << axis, style);
   }
-  apply_length_to(in.state, axis);
-  if (std::fabs(in.state.machine[axis] - (in.zero()[axis] + in.state.applied[axis]) - to) <= kNoMotion) return;
-  const AxisVec offset = offset_in_force(in);
-  AxisVec start;
-  for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
-  const AxisVec end = with_one(axis, to, start);
-  Move& move = begin_moved(in, offset, start, end);
-  set_style(in, move, style);
-  if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
+  in.axis_count <= kFewAxes ? make_stroke<kFewAxes>(in, axis, to, style) : make_stroke<kMaxAxes>(in, axis, to, style);
 }
 
 void move_nowhere(BlockContext& in, bool leads_space) {

@@ -6,30 +6,33 @@
 
 namespace nc {
 
+/// Its members stand by their size, so that those which are 0 lie together: one is made for every stroke of a hole.
 struct LinearStyle {
-  nc_move_kind kind = NC_MOVE_LINE;
   double feed_mm_min = 0;
   const SkipSpeeds* skip_speeds = nullptr;
+  double feed_mm_rev = 0;     ///< thread: lead along the longest axis
+  double thread_angle = 0;
+  double tap_slope = 0;       ///< highest acceleration of the spindle for it, rev/s^2; 0 = any
+  double tap_speed = 0;       ///< of a tap that goes with the spindle: what the spindle is to turn with, r/min, forward positive
+  double corner_mm = 0;       ///< of this size is ...
+  double in_position = 0;     ///< ,I ,J: what comes behind waits until each axis is as near to its end as this, mm; 0 = by the parameters
+  nc_move_kind kind = NC_MOVE_LINE;
+  Corner corner = Corner::none;  ///< ... the corner at its end
+  uint8_t skip_mask = 0;
+  uint8_t unclamps = 0;       ///< bit i: axis i, an index table, is unclamped during the move (M700 9.3)
   bool exact_stop = false;
   bool flows = false;         ///< rapid traverse: see Move::flows
   bool transparent = false;   ///< the vectors of radius compensation are taken away for this move
-  uint8_t skip_mask = 0;
   bool skip_away = false;     ///< see Move::skip_away
-  uint8_t unclamps = 0;       ///< bit i: axis i, an index table, is unclamped during the move (M700 9.3)
-  double feed_mm_rev = 0;     ///< thread: lead along the longest axis
-  double thread_angle = 0;
   bool tapping = false;       ///< a stroke of a tap: the override is 100 %
-  double tap_slope = 0;       ///< highest acceleration of the spindle for it, rev/s^2; 0 = any
-  double tap_speed = 0;       ///< of a tap that goes with the spindle: what the spindle is to turn with, r/min, forward positive
   bool special_feed = false;  ///< the modal feed, and it is not the plain one (interpret/feed.hpp)
-  Corner corner = Corner::none;  ///< at its end ...
-  double corner_mm = 0;       ///< ... of this size
-  double in_position = 0;     ///< ,I ,J: what comes behind waits until each axis is as near to its end as this, mm; 0 = by the parameters
   bool checks_itself = false; ///< whether the axes are waited for behind it is not for the parameters to say: who makes the move adds the check
 };
 /// Makes a straight move to `target` in the active coordinates; `commanded`: the axes named in the block, to which tool length is applied.
 void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
-/// The same of one axis alone, to this coordinate, as the strokes of a hole are.
+/// An axis goes to this coordinate, as the strokes of a hole do: it is not there yet. Applies the tool length to it, also where it stays.
+bool goes_along_axis(InForce& in, unsigned axis, double to);
+/// Moves an axis alone that goes there.
 void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& style);
 /// Makes a straight rapid to machine coordinates of the `commanded` axes (G53, second part of G28); those of them that are in `bare` get no compensation.
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});

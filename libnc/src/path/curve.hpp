@@ -33,20 +33,19 @@ struct Curve {
 
 /// Makes a line. `axis_count` axes; bit i of `rotary` = axis i is rotary.
 Curve make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary);
-/// Makes a line in *curve, without a copy and without a call, because one is made for every move.
+/// Makes a line in *curve, without a copy and without a call, because one is made for every move. There are no more than kAxes axes.
+template <unsigned kAxes = kMaxAxes>
 inline void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve) {
   curve->circular = false;
   curve->shape = nullptr;
-  AxisVec way;  // of all axes, because the compiler knows that count; those that the machine does not have are 0
-  for (unsigned i = 0; i < kMaxAxes; ++i) way[i] = end[i] - start[i];
-  curve->start = start;
-  curve->end = end;
-  curve->delta = way;
+  for (unsigned i = 0; i < kAxes; ++i) curve->delta[i] = end[i] - start[i];
+  for (unsigned i = 0; i < kAxes; ++i) curve->start[i] = start[i];
+  for (unsigned i = 0; i < kAxes; ++i) curve->end[i] = end[i];
   double linear = 0, turned = 0;
-  for (unsigned i = 0; i < axis_count; ++i) {
-    const double square = way[i] * way[i];
-    if ((rotary >> i & 1) != 0) [[unlikely]] turned += square;
-    else linear += square;
+  if (rotary == 0) [[likely]] {
+    for (unsigned i = 0; i < kAxes; ++i) linear += (end[i] - start[i]) * (end[i] - start[i]);
+  } else {
+    for (unsigned i = 0; i < axis_count; ++i) ((rotary >> i & 1) != 0 ? turned : linear) += curve->delta[i] * curve->delta[i];
   }
   curve->length = std::sqrt(linear > 0 ? linear : turned);
 }

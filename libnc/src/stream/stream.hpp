@@ -48,6 +48,9 @@
 namespace nc {
 
 inline constexpr unsigned kMaxAxes = NC_MAX_AXES;
+/// Most part systems have no more axes than this. What is done for every move has a form for them that takes half of the time, for all axes at once: those that a part
+/// system does not have are always 0.
+inline constexpr unsigned kFewAxes = 4;
 
 /// One value per axis of a part system, mm or degrees, in configuration order.
 struct AxisVec {

@@ -99,7 +99,7 @@ void resolve_hole(BlockInHand& in) {
   h.q = in.jobs.holes.whole ? 0 : is_tap(c.kind) ? c.tap_q : std::fabs(c.q);
   resolve_dwells(in, &h);
   h.clearance = clearance(in, c.kind);
-  in.jobs.holes.over = in.position();
+  if (strokes_of(c.kind).moves_in_plane) in.jobs.holes.over = in.position();
   if (strokes_of(c.kind).shifts) in.jobs.holes.beside = place_beside(in);
 }
 
@@ -210,6 +210,7 @@ bool checks_itself(const InForce& in, const CycleStep& step) {
 
 void move_along(BlockContext& in, const CycleStep& step) {
   const CycleState& c = in.state.cycle;
+  if (!goes_along_axis(in, c.drill_axis, step.to)) return;
   LinearStyle style;
   style.kind = step.kind == StrokeKind::rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
   if (style.kind != NC_MOVE_RAPID) style.feed_mm_min = feed_mm_min(in);
@@ -258,9 +259,11 @@ void emit_dwell(BlockContext& in, double seconds) {
 }
 
 void make_stroke(BlockContext& in, const CycleStep& step) {
+  if (goes_along(step.kind)) {  // most do, and a jump by a table is foreseen less often than this one
+    move_along(in, step);
+    return check_tap_position(in, step);
+  }
   switch (step.kind) {
-    case StrokeKind::rapid:
-    case StrokeKind::feed: move_along(in, step); break;
     case StrokeKind::shift_rapid:
     case StrokeKind::shift_feed: move_in_plane(in, step); break;
     case StrokeKind::circle_in:
@@ -269,9 +272,10 @@ void make_stroke(BlockContext& in, const CycleStep& step) {
     case StrokeKind::dwell: emit_dwell(in, dwell_of(in.jobs.holes.hole, step.level)); break;
     case StrokeKind::spindle: turn_spindle(in, step.spindle); break;
     case StrokeKind::program_stop: in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP; break;
+    case StrokeKind::rapid:
+    case StrokeKind::feed:
     case StrokeKind::again: break;
   }
-  check_tap_position(in, step);
 }
 
 /// M700 13.1.1, G84: a hold that comes between R and R again acts behind the way back.
