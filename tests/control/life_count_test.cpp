@@ -68,6 +68,25 @@ TEST_F(LifeCount, NothingGoesByWhatIsOnlyRead) {
   EXPECT_GE(told_at, 10U) << "with the second mount, and not before";
 }
 
+// A run that no machine executes tells the table how long a tool has cut; the end of the range ends a life of 4000 minutes.
+TEST_F(LifeCount, ARunWithoutAMachineCountsTheSame) {
+  bench.at(0, 0, 0);
+  run("G10 L3\nP7 L4000 Q2\nT11\nP8 L5 Q1\nT21\nG11\nM30");
+  nc_control* const c = bench.control();
+  EXPECT_EQ(nc_tool_life_cut(c, 1, 11, 3999.25), NC_OK);
+  EXPECT_EQ(nc_tool_life_cut(c, 2, 11, 0.25), NC_OK) << "wherever it is registered now";
+  EXPECT_EQ(life(1, NC_LIFE_USED), 3999.5);
+  EXPECT_EQ(life(1, NC_LIFE_STATUS), 0);
+  EXPECT_EQ(nc_tool_life_cut(c, 1, 11, 1), NC_OK);
+  EXPECT_EQ(life(1, NC_LIFE_USED), 4000);
+  EXPECT_EQ(life(1, NC_LIFE_STATUS), 2);
+  EXPECT_EQ(nc_tool_life_cut(c, 2, 21, 3), NC_OK);
+  EXPECT_EQ(life(2, NC_LIFE_USED), 0) << "its life is counted in mounts";
+  EXPECT_EQ(nc_tool_life_cut(c, 1, 99, 3), NC_OK) << "it is not registered";
+  for (const double minutes : {-1.0, std::nan(""), HUGE_VAL}) EXPECT_EQ(nc_tool_life_cut(c, 1, 11, minutes), NC_E_ARGUMENT) << minutes;
+  for (const unsigned number : {0U, NC_TOOL_LIVES + 1U}) EXPECT_EQ(nc_tool_life_cut(c, number, 11, 1), NC_E_ARGUMENT) << number;
+}
+
 // What was registered in the place of the tool in the spindle is another tool.
 TEST_F(LifeCount, AToolThatIsNotRegisteredAnyMoreIsNotCounted) {
   bench.at(0, 0, 0);

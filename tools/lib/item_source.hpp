@@ -4,7 +4,6 @@
 
 #include "nc/nc.h"
 #include "runtime/programs/encoding.hpp"
-#include "tools/lib/life_minutes.hpp"
 
 namespace nc::tools {
 
@@ -43,7 +42,7 @@ class ItemSource {
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
   /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line_get); 0 = not known. */
   virtual uint32_t main_line(const nc_source& source) { return source.depth == 0 ? source.line : 0; }
-  /** A tool of the table of tool life has cut for so long (life_minutes.hpp). */
+  /** A tool of the table of tool life has cut for so long (nc_tool_life_cut). */
   virtual void wear(unsigned /*place*/, uint32_t /*tool*/, double /*minutes*/) {}
   /** A hash of everything that can influence the program (loop_watch.hpp). */
   virtual uint64_t program_state() { return 0; }
@@ -96,7 +95,7 @@ class ControlSource final : public ItemSource {
     nc_main_line_get(control_, system_, &source, &line);
     return line;
   }
-  void wear(unsigned place, uint32_t tool, double minutes) override { wear_tool(control_, place, tool, minutes); }
+  void wear(unsigned place, uint32_t tool, double minutes) override { nc_tool_life_cut(control_, place, tool, minutes); }
   uint64_t program_state() override {
     uint64_t hash = 0;
     nc_program_state_hash(control_, system_, &hash);

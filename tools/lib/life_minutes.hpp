@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Minutes of cutting for the table of tool life, of a run that no control executes: on a machine the control counts them itself.
+// Minutes of cutting for the table of tool life (nc_tool_life_cut), of a run that no control executes: on a machine the control counts them itself.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,5 @@ class LifeMinutes {
   uint32_t tool_ = 0;
   double seconds_ = 0.0;
 };
-
-/** Counts minutes for a tool of the table, wherever it is registered now. Does nothing where it is not, or where its life is counted in times. */
-void wear_tool(nc_control* control, unsigned place, uint32_t tool, double minutes);
 
 }  // namespace nc::tools

@@ -196,6 +196,18 @@ NC_API nc_status nc_tool_life_set(nc_control* control, unsigned number, nc_life_
  */
 NC_API nc_status nc_tool_life_get(const nc_control* control, unsigned number, nc_life_column column, double* value);
 
+/**
+ * Offline: a tool of the table has cut for so long. Counts it as the control does by itself where it executes the program: for the tool wherever it is registered now,
+ * up to the end of the range of minutes, and with the end of its life. Nothing is counted where the tool is registered no more, or where its life is counted in times.
+ * Feeder thread.
+ * @param control the control
+ * @param number of the tool in the table, 1 to NC_TOOL_LIVES, as NC_CONTROL_TOOL_LIFE gives it: the place in which it was when it came into the spindle
+ * @param tool its number, as NC_CONTROL_TOOL_LIFE gives it
+ * @param minutes of cutting, 0 or more
+ * @return NC_OK; NC_E_ARGUMENT: no such number, or `minutes` is negative or not finite
+ */
+NC_API nc_status nc_tool_life_cut(nc_control* control, unsigned number, uint32_t tool, double minutes);
+
 /* ---- variables ------------------------------------------------------------------------------------------------ */
 
 /**

@@ -6,6 +6,7 @@
 #include "base/struct_size.hpp"
 #include "control/alarm_texts.hpp"
 #include "control/control.hpp"
+#include "control/life_count.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
 #include "dialect/text.hpp"
@@ -241,6 +242,13 @@ nc_status nc_tool_life_set(nc_control* c, unsigned number, nc_life_column column
 nc_status nc_tool_life_get(const nc_control* c, unsigned number, nc_life_column column, double* value) {
   if (value == nullptr || !life_place(c, number, column)) return NC_E_ARGUMENT;
   *value = nc::life_number(c->system[0].interpreter.tables().lives().tool[number - 1], static_cast<nc::LifeColumn>(column));
+  return NC_OK;
+}
+
+nc_status nc_tool_life_cut(nc_control* c, unsigned number, uint32_t tool, double minutes) {
+  if (!life_place(c, number, NC_LIFE_USED) || !(minutes >= 0) || !std::isfinite(minutes)) return NC_E_ARGUMENT;
+  const nc::HostTables tables = c->system[0].interpreter.tables();
+  nc::count_minutes(tables, tables.lives().find({number - 1, tool}), minutes, c->dialect->rules.range.most_life_minutes);
   return NC_OK;
 }
 

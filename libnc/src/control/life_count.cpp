@@ -3,6 +3,7 @@
 // machine. It is no part of the program, so no rewind takes it back.
 #include <algorithm>
 
+#include "control/life_count.hpp"
 #include "control/part_system.hpp"
 #include "dialect/dialect.hpp"
 #include "frame/tool_life.hpp"
@@ -18,25 +19,25 @@ unsigned slot_of(const ToolLives& lives, const MountedTool& mounted) {
 
 }  // namespace
 
+void count_minutes(const HostTables& tables, unsigned slot, double minutes, double most) {
+  if (slot == ToolLives::kNone) return;
+  const ToolLife& tool = tables.lives().tool[slot];
+  if (tool.flags.method != LifeMethod::time) return;
+  const double used = std::min(most, tool.used + minutes);
+  tables.set_life(slot, &ToolLife::used, used);
+  if (tool.life != 0 && used >= static_cast<double>(tool.life) && tool.lives()) tables.set_life(slot, &ToolLife::status, LifeStatus::ended);
+}
+
 void PartSystem::count_tool_life() {
   constexpr double kMinute_ms = 60000;
-  const double most_minutes = dialect_->rules.range.most_life_minutes;
   const HostTables tables = interpreter.tables();
   const ToolLives& lives = tables.lives();
   MountedTool mounted;
   uint32_t ms = 0;
   while (executor.tool_cut(&mounted, &ms)) {
     const unsigned slot = slot_of(lives, mounted);
-    if (slot == ToolLives::kNone) continue;
-    const ToolLife& tool = lives.tool[slot];
-    if (ms == LifeRing::kBroken) {
-      tables.set_life(slot, &ToolLife::status, LifeStatus::error_1);
-      continue;
-    }
-    if (tool.flags.method != LifeMethod::time) continue;
-    const double used = std::min(most_minutes, tool.used + ms / kMinute_ms);
-    tables.set_life(slot, &ToolLife::used, used);
-    if (tool.life != 0 && used >= static_cast<double>(tool.life) && tool.lives()) tables.set_life(slot, &ToolLife::status, LifeStatus::ended);
+    if (ms != LifeRing::kBroken) count_minutes(tables, slot, ms / kMinute_ms, dialect_->rules.range.most_life_minutes);
+    else if (slot != ToolLives::kNone) tables.set_life(slot, &ToolLife::status, LifeStatus::error_1);
   }
   const unsigned in_spindle = slot_of(lives, executor.tool_in_spindle());
   if (in_spindle == ToolLives::kNone) return executor.tell_tool_life(0, 0);
