@@ -48,8 +48,7 @@ enum class StrokeKind : uint8_t {
 };
 
 /// Along the drilling axis, as most strokes go.
-constexpr bool goes_along(StrokeKind kind) { return kind <= StrokeKind::feed; }
-static_assert(static_cast<unsigned>(StrokeKind::rapid) == 0 && static_cast<unsigned>(StrokeKind::feed) == 1);
+constexpr bool goes_along(StrokeKind kind) { return kind == StrokeKind::rapid || kind == StrokeKind::feed; }
 
 /// Where a stroke goes.
 enum class Level : uint8_t {
