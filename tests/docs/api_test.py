@@ -84,7 +84,7 @@ def unlisted_structs(headers):
     return sorted(sized ^ named)
 
 
-UNIT = re.compile(r"\b(?:mm|deg|s|ms|rev|r/min|seconds|revolutions|units?|share)\b|1 = 100 %|must be 0")
+UNIT = re.compile(r"\b(?:mm|deg|s|ms|rev|r/min|seconds|minutes|revolutions|units?|share)\b|1 = 100 %|must be 0")
 
 
 def without_unit(text):

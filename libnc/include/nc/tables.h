@@ -203,7 +203,7 @@ NC_API nc_status nc_tool_life_get(const nc_control* control, unsigned number, nc
  * @param control the control
  * @param number of the tool in the table, 1 to NC_TOOL_LIVES, as NC_CONTROL_TOOL_LIFE gives it: the place in which it was when it came into the spindle
  * @param tool its number, as NC_CONTROL_TOOL_LIFE gives it
- * @param minutes of cutting, min, 0 or more
+ * @param minutes of cutting, 0 or more: unit minutes
  * @return NC_OK; NC_E_ARGUMENT: no such number, or `minutes` is negative or not finite
  */
 NC_API nc_status nc_tool_life_cut(nc_control* control, unsigned number, uint32_t tool, double minutes);
