@@ -16,7 +16,7 @@ class ItemQueue {
   /// Takes memory from `arena`; a measuring arena only counts it.
   void create(Arena& arena) {
     begin_ = front_ = back_ = arena.make<Item>(kCapacity);
-    last_ = begin_ + (kCapacity - 1);
+    if (begin_ != nullptr) last_ = begin_ + (kCapacity - 1);
   }
   bool empty() const { return count_ == 0; }
   unsigned size() const { return count_; }
