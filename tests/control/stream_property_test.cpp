@@ -170,7 +170,21 @@ TEST(Rewind, InTheMiddleOfARun) {
   EXPECT_LT(refused, done / 20);
 }
 
+/// Whether reading can be taken back to this mark when nothing behind it has been read. In a contour whose blocks depend on one before the mark it cannot
+/// (nc/run.h), which has nothing to do with the age of the mark.
+bool resumes_at_once(const RandomProgram& program, const Step& mark) {
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.look_ahead = 64; });
+  prepare(bench, program);
+  bench.start(program.main);
+  for (Step step; step.item.serial < mark.item.serial;) {
+    const nc_status status = bench.pull(&step);
+    if (status != NC_OK && status != NC_BUDGET) return false;
+  }
+  return bench.rewind(mark.item.serial, mark.machine) == NC_OK;
+}
+
 TEST(Rewind, ReachesTheWholeLookAhead) {
+  unsigned refused = 0, done = 0;
   for (uint32_t seed = 0; seed < kPrograms; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const RandomProgram program = ProgramMaker(seed).make();
@@ -183,10 +197,18 @@ TEST(Rewind, ReachesTheWholeLookAhead) {
       if (step.item.kind == NC_ITEM_MARK && step.item.u.mark.report) marks.push_back(&step);
     if (marks.size() < 64) continue;
     const Step* oldest = marks[marks.size() - 64];
-    ASSERT_EQ(bench.rewind(oldest->item.serial, oldest->machine), NC_OK);
+    const nc_status went = bench.rewind(oldest->item.serial, oldest->machine);
+    if (went == NC_E_NOT_FOUND) {
+      ASSERT_FALSE(resumes_at_once(program, *oldest)) << "mark " << oldest->item.serial << " is not known any more";
+      ++refused;
+      continue;
+    }
+    ASSERT_EQ(went, NC_OK);
+    ++done;
     const Path wanted(expected.begin() + static_cast<long>(oldest->item.serial), expected.end());
     ASSERT_TRUE(same(texts(bench.finish().steps), wanted));
   }
+  EXPECT_LE(refused, done / 20);
 }
 
 TEST(Rewind, WhatTheHostChangesStays) {  // nc/run.h: changed offsets and variables act from the next block
