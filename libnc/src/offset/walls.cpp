@@ -60,6 +60,35 @@ bool lines_cross(const Piece& a, const Piece& b) {
   return s >= 0 && s <= 1 && t >= 0 && t <= 1;
 }
 
+/// Where two curves cross: up to two places.
+template <class Place>
+struct Crossings {
+  Place at[2] = {Place{}, Place{}};
+  unsigned count = 0;
+  const Place* begin() const { return at; }
+  const Place* end() const { return at + count; }
+};
+
+/// Where the line from `from` along the unit vector `u` crosses a circle: lengths from `from`.
+Crossings<double> line_crosses_circle(Vec2 from, Vec2 u, Vec2 center, double radius) {
+  const double foot = dot(center - from, u), away = cross(u, center - from), squares = radius * radius - away * away;
+  if (squares < 0) return {};
+  const double half = std::sqrt(squares);
+  return {{foot - half, foot + half}, 2};
+}
+
+/// Where two circles cross, as vectors from the centre of the first one. Circles about one centre cross nowhere.
+Crossings<Vec2> circles_cross(Vec2 center, double radius, Vec2 other_center, double other_radius) {
+  const Vec2 beside = other_center - center;
+  const double apart = norm(beside);
+  if (!(apart > kNoLength)) return {};
+  const Vec2 e = (1 / apart) * beside;
+  const double along = (radius * radius - other_radius * other_radius + apart * apart) / (2 * apart), squares = radius * radius - along * along;
+  if (squares < 0) return {};
+  const Vec2 across = std::sqrt(squares) * left_of(e);
+  return {{along * e - across, along * e + across}, 2};
+}
+
 /// Where the line passes the centre nearest, and where it crosses the circle.
 double line_to_arc(const Piece& line, const Piece& arc) {
   const Vec2 way = line.to - line.from;
@@ -67,15 +96,12 @@ double line_to_arc(const Piece& line, const Piece& arc) {
   double best = kInfinite;
   if (!(length > kNoLength)) return best;
   const Vec2 u = (1 / length) * way;
-  const double foot = dot(arc.center - line.from, u), away = cross(u, arc.center - line.from);
+  const double foot = dot(arc.center - line.from, u);
   if (foot >= 0 && foot <= length) {
     const Vec2 nearest = line.from + foot * u;
     if (faces(arc, nearest)) best = std::abs(norm(nearest - arc.center) - radius);
   }
-  const double squares = radius * radius - away * away;
-  if (squares < 0) return best;
-  const double half = std::sqrt(squares);
-  for (const double t : {foot - half, foot + half})
+  for (const double t : line_crosses_circle(line.from, u, arc.center, radius))
     if (t >= 0 && t <= length && faces(arc, line.from + t * u)) return 0;
   return best;
 }
@@ -93,10 +119,8 @@ double arc_to_arc(const Piece& a, const Piece& b) {
       const Vec2 p = a.center + s * ra * e, q = b.center + t * rb * e;
       if (faces(a, p) && faces(b, q)) best = std::min(best, norm(p - q));
     }
-  const double x = (ra * ra - rb * rb + apart * apart) / (2 * apart), squares = ra * ra - x * x;
-  if (squares < 0) return best;
-  for (const double h : {std::sqrt(squares), -std::sqrt(squares)}) {
-    const Vec2 hit = a.center + x * e + h * left_of(e);
+  for (const Vec2 way : circles_cross(a.center, ra, b.center, rb)) {
+    const Vec2 hit = a.center + way;
     if (faces(a, hit) && faces(b, hit)) return 0;
   }
   return best;
@@ -166,31 +190,23 @@ void add_direction(const Piece& arc, Vec2 way, Places* places) {
 }
 
 void add_circle(const Piece& piece, Vec2 center, double radius, Places* places) {
-  if (!piece.round) {
-    const Vec2 way = piece.to - piece.from, from = piece.from - center;
-    const double squares = dot(way, way), half = dot(way, from), root = half * half - squares * (dot(from, from) - radius * radius);
-    if (!(squares > 0) || root < 0) return;
-    for (const double sign : {-1.0, 1.0}) places->add((sign * std::sqrt(root) - half) / squares);
+  if (piece.round) {
+    for (const Vec2 way : circles_cross(piece.center, mean_radius(piece), center, radius)) add_direction(piece, way, places);
     return;
   }
-  const Vec2 beside = center - piece.center;
-  const double apart = norm(beside), own = mean_radius(piece);
-  if (!(apart > kNoLength)) return;
-  const Vec2 e = (1 / apart) * beside;
-  const double along = (own * own - radius * radius + apart * apart) / (2 * apart), squares = own * own - along * along;
-  if (squares < 0) return;
-  for (const double sign : {-1.0, 1.0}) add_direction(piece, along * e + sign * std::sqrt(squares) * left_of(e), places);
+  const Vec2 way = piece.to - piece.from;
+  const double length = norm(way);
+  if (!(length > 0)) return;
+  for (const double along : line_crosses_circle(piece.from, (1 / length) * way, center, radius)) places->add(along / length);
 }
 
 void add_line(const Piece& piece, Vec2 point, Vec2 u, Places* places) {
-  if (!piece.round) {
-    const double across = cross(piece.to - piece.from, u);
-    if (across != 0) places->add(cross(point - piece.from, u) / across);
+  if (piece.round) {
+    for (const double along : line_crosses_circle(point, u, piece.center, mean_radius(piece))) add_direction(piece, point + along * u - piece.center, places);
     return;
   }
-  const double own = mean_radius(piece), away = dot(point - piece.center, left_of(u)), squares = own * own - away * away;
-  if (squares < 0) return;
-  for (const double sign : {-1.0, 1.0}) add_direction(piece, away * left_of(u) + sign * std::sqrt(squares) * u, places);
+  const double across = cross(piece.to - piece.from, u);
+  if (across != 0) places->add(cross(point - piece.from, u) / across);
 }
 
 /// All that is as near to a piece as `clear` ends on a circle about one of its ends, or on a curve beside it. Between two places in which a line or an arc passes one of these it is either
