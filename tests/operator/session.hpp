@@ -135,9 +135,10 @@ class Session {
       manual.distance = any_number(manual.kind == NC_MANUAL_HANDLE ? dice_.uniform(-0.05, 0.05) : dice_.uniform(-3, 3));
     }
   }
-  /// Leads every axis that was moved in a hold back to the path, and lets the others go.
+  /// Leads every axis that was moved in a hold back to the path, and lets the others go. A key that is pressed while nothing may move by hand would have to be released first.
   void lead_back() {
-    for (unsigned i = 0; i < NC_MAX_AXES; ++i) in_.manual[i] = {(out_.restart_axes >> i & 1) != 0 ? uint8_t{NC_MANUAL_RETURN} : uint8_t{NC_MANUAL_NONE}, 0, 0};
+    const uint32_t away = out_.manual_allowed ? out_.restart_axes : 0;
+    for (unsigned i = 0; i < NC_MAX_AXES; ++i) in_.manual[i] = {(away >> i & 1) != 0 ? uint8_t{NC_MANUAL_RETURN} : uint8_t{NC_MANUAL_NONE}, 0, 0};
   }
   /// Returns `usual`, but now and then NaN, infinity, or a number out of all ranges.
   double any_number(double usual) {
