@@ -4,10 +4,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "support/pull.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -23,7 +27,7 @@ struct Told {
 
 class Pulling {
  public:
-  Pulling(nc_dialect dialect, const std::string& text) : bench_(dialect) { bench_.start(text); }
+  Pulling(nc_dialect dialect, const std::string& text, const std::function<void(nc_config&)>& machine = {}) : bench_(dialect, machine) { bench_.start(text); }
 
   Told one_by_one() {
     bool behind_move = false;
@@ -88,8 +92,8 @@ class Pulling {
   Told told_;
 };
 
-void expect_same(nc_dialect dialect, const std::string& text) {
-  const Told all = Pulling(dialect, text).one_by_one(), past = Pulling(dialect, text).passing();
+void expect_same(nc_dialect dialect, const std::string& text, const std::function<void(nc_config&)>& machine = {}) {
+  const Told all = Pulling(dialect, text, machine).one_by_one(), past = Pulling(dialect, text, machine).passing();
   EXPECT_GT(all.moves, 0u) << text << ::testing::PrintToString(all.given);
   EXPECT_EQ(all.given, past.given) << text;
   EXPECT_EQ(all.moves, past.moves) << text;
@@ -109,6 +113,42 @@ TEST(PullPast, CountsWhatPullGives) {
            "G90 G1 X1. F100\nX2.\nG1 X3. Y\nX4.\nG999\nM30\n",                                                    // an alarm
        })
     expect_same(NC_DIALECT_M700, text);
+}
+
+/// Strokes of holes are counted without items where nothing else is under way (interpret/stroke_counter.hpp): to the last bit as their items would be, also where shifts
+/// leave a rounding, the tool has a length, a program is turned or mirrored, or a limit ends it.
+TEST(PullPast, CountsHolesAsTheirItems) {
+  for (uint64_t seed = 1; seed <= seeds(300, 40); ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    const auto any = [&](double low, double high) { return brief(std::uniform_real_distribution<double>(low, high)(random)); };
+    const auto one_of = [&](std::initializer_list<const char*> of) { return std::string(of.begin()[random() % of.size()]); };
+    std::string text = "G90 G10 L2 P1 X" + any(-9, 9) + " Y" + any(-9, 9) + " Z" + any(-9, 9) + "\nG54 S500 M3\nG0 X0 Y0 Z20.\n";
+    if (random() % 3 == 0) text += "G10 L10 P1 R" + any(0, 3) + one_of({"\nG43 H1 Z20.\n", "\nG43 H1\n"});  // the second waits for the next Z
+    if (random() % 8 == 0) text += one_of({"G51.1 X0\n", "G51 X0 Y0 Z0 P2.\n", "G95 F0.2\n", "G22 X-90. Y-90. Z-90. I-80. J-80. K-80.\n", "G61.1\n"});
+    text += one_of({"G17\n", "G17\n", "G18\n", "G19\n"}) + "G94 F" + any(50, 900) + "\n";
+    for (unsigned cycles = 1 + random() % 4; cycles > 0; --cycles) {
+      const std::string code = one_of({"G81", "G82", "G83", "G73", "G85", "G86", "G89", "G76", "G87", "G84", "G74"});
+      text += one_of({"G90 ", "G90 ", "G91 "}) + one_of({"G98 ", "G99 "}) + code + " X" + any(-9, 9) + " Y" + any(-9, 9) + " Z" + any(-9, -1) + " R" + any(0, 5);
+      if (code == "G83" || code == "G73" || code == "G76" || code == "G87") text += " Q" + any(0.3, 2);
+      if (random() % 3 == 0) text += " P" + one_of({"100", "0"});
+      if (random() % 8 == 0) text += " ,I" + any(0.01, 1) + " ,J" + any(0.01, 1);
+      text += '\n';
+      for (unsigned holes = random() % 5; holes > 0; --holes) text += one_of({"X", "Y", "Z"}) + any(-9, -1) + (random() % 4 == 0 ? " L3" : "") + '\n';
+      if (random() % 3 == 0) text += "G80\nG0 Z20.\nG1 X" + any(-9, 9) + " F200\n";
+    }
+    const double lowest = -std::uniform_real_distribution<double>(10, 60)(random);
+    expect_same(NC_DIALECT_M700, text + "G80\nM30\n", [&](nc_config& c) {
+      if (seed % 3 == 0) return;
+      for (unsigned i = 0; i < 3; ++i) {
+        c.system[0].axis[i].soft_limited = true;
+        c.system[0].axis[i].soft_min = lowest;
+        c.system[0].axis[i].soft_max = 90;
+      }
+      if (seed % 3 == 1) return;
+      c.system[0].axis_count = 6;  // more than the few for which lines have a form of their own
+      for (unsigned i = 3; i < 6; ++i) c.system[0].axis[i].name = "ABC"[i - 3];
+    });
+  }
 }
 
 /// A macro interrupt may cut the item that was given last, so each move is given while its signal is on.

@@ -3,6 +3,7 @@
 // that has been committed never changes.
 #pragma once
 
+#include <cmath>
 #include <cstring>
 
 #include "base/intern_pool.hpp"
@@ -152,6 +153,16 @@ class Commit {
     passed->length += curve_.length;
     static_assert(sizeof passed->machine == sizeof machine_);
     std::memcpy(&passed->machine, &machine_, sizeof machine_);
+  }
+  /// Commits a line along one axis that is only counted, and gives its length. False: commit() has to say what becomes of it.
+  bool commit_stroke(unsigned axis, double to, double* length) {
+    const nc_axis_config& limits = config_.system->axis[axis];
+    if (limits.soft_limited && (to > limits.soft_max || to < limits.soft_min)) return false;
+    *length = std::fabs(to - machine_[axis]);  // in binary arithmetic the root of a square is its number, to the last bit
+    if (*length < kNoLength) return false;
+    machine_[axis] = to;
+    ++last_serial_;
+    return true;
   }
   /// Short forms of commit() and to_public() for a mark, to which commit() gives only its serial.
   void commit_mark() { ++last_serial_; }

@@ -115,6 +115,7 @@ class PartSystem {
   bool passes(const Item& item, bool behind_move) const;
   void count_passed(const Item& item, nc_passed* passed);
   void note_passed(const Item& item, const Item* move, nc_passed* passed);
+  struct Row;
   nc_status pass_row(uint32_t& budget, uint64_t before, nc_passed* passed);
   bool pop_held(Item& out) { return stages_.pop(out); }
   // What follows after an item has been given out.

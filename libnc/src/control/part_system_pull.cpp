@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "control/part_system_stream.hpp"
+#include "interpret/stroke_counter.hpp"
 
 namespace nc {
 
@@ -83,11 +84,61 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   if (move != nullptr) std::memcpy(&passed->work, &move->move.work, sizeof passed->work);
 }
 
+/// What counts strokes of holes while a row is passed, as pass_row() does it with their items.
+struct PartSystem::Row {
+  PartSystem& system;
+  const uint64_t before;
+  nc_passed* const passed;
+  const StrokeCounter counter;
+
+  Row(PartSystem& of, uint64_t moves_before, nc_passed* past) : system(of), before(moves_before), passed(past), counter{this, &Row::stands, &Row::stroke, &Row::stop_point, &Row::end} {
+    system.interpreter.count_strokes(&counter);
+  }
+  ~Row() { system.interpreter.count_strokes(nullptr); }
+  Row(const Row&) = delete;
+  Row& operator=(const Row&) = delete;
+
+  static bool stands(void* user, const AxisVec& machine) { return static_cast<Row*>(user)->system.commit_.machine() == machine; }
+  static bool stroke(void* user, unsigned axis, double to, bool rapid, double feed) {
+    const Row& row = *static_cast<Row*>(user);
+    nc_passed& passed = *row.passed;
+    double length = 0;
+    if (passed.most_in_row != 0 && passed.moves_in_row + 1 >= passed.most_in_row) return false;  // the row ends with it
+    if (!row.system.commit_.commit_stroke(axis, to, &length)) return false;
+    ++passed.moves;
+    ++passed.moves_in_row;
+    passed.marks = 0;
+    if (rapid) feed = passed.rapid_mm_min;
+    if (feed > 0) passed.seconds += length / feed * 60;
+    passed.length += length;
+    return true;
+  }
+  static bool stop_point(void* user) {
+    const Row& row = *static_cast<Row*>(user);
+    if (row.passed->moves == row.before) return false;
+    row.system.commit_.commit_mark();
+    ++row.passed->marks;
+    row.passed->moves_in_row = 0;
+    row.system.beside_ = false;
+    return true;
+  }
+  static void end(void* user, const nc_source& source, const AxisVec* work) {
+    const Row& row = *static_cast<Row*>(user);
+    row.system.pulled_ = ItemKind::mark;
+    row.system.pulled_in_hole_ = true;
+    row.passed->source = source;
+    if (work == nullptr) return;
+    std::memcpy(&row.passed->machine, &row.system.commit_.machine(), sizeof row.passed->machine);
+    std::memcpy(&row.passed->work, work, sizeof *work);
+  }
+};
+
 /// Passes the items in front of the interpreter's queue that nothing concerns but commit: lines, and marks inside a block. What next() and pump() ask with every item
 /// and no such item changes is asked once here. Any other item, and one that commit refuses, is left to them (NC_OK). `before`: number of moves that had been passed
 /// before this call of nc_pull_past().
 nc_status PartSystem::pass_row(uint32_t& budget, uint64_t before, nc_passed* passed) {
   if (watched_ || commit_watch_ != nullptr || staged_count_ != 0 || !stages_.idle() || answered_block_ != 0 || shape_left_ != nullptr) return NC_OK;
+  const Row row(*this, before, passed);
   Item *item = nullptr, *last = nullptr, *last_move = nullptr;
   nc_status status = interpreter.next(budget, &item);
   while (status == NC_OK && passes(*item, passed->moves != before)) {

@@ -16,6 +16,7 @@
 #include "interpret/block_in_hand.hpp"
 #include "interpret/checkpoints.hpp"
 #include "interpret/motion_settings.hpp"
+#include "interpret/stroke_counter.hpp"
 #include "stream/item_queue.hpp"
 
 namespace nc {
@@ -33,6 +34,8 @@ struct Message {
 struct BlockContext : BlockInHand {
   InternPool<Affine> transforms;   ///< from the compensation frame to machine coordinates; Move::transform
   InternPool<MoveShape> shapes;    ///< shapes of moves under way; Move::shape counts from 1
+  const StrokeCounter* stroke_counter = nullptr;  ///< who only counts the strokes of holes; nullptr: each becomes an item
+  unsigned counted = 0;            ///< what has been counted in this step in the place of items
   bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
 
   /// A new item at the end of the queue, with the default payload of its kind; moves are made by emit_move().
@@ -48,7 +51,7 @@ struct BlockContext : BlockInHand {
     move.settings = settings_of_moves_;
     return move;
   }
-  bool queue_has_room() const { return queue.room() > kReserve; }
+  bool queue_has_room() const { return queue.room() > kReserve + counted; }
   /// The items of the block in hand that have been made and not yet taken.
   unsigned items_made() const { return queue.size(); }
   Item& item_made(unsigned index) { return queue[index]; }

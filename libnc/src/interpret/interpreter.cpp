@@ -7,6 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <new>
+#include <utility>
 
 #include "interpret/functions/functions.hpp"
 #include "interpret/journal_keys.hpp"
@@ -370,7 +371,7 @@ nc_status Interpreter::step(uint32_t& budget) {
       block_seq_ = state.seq;
     }
     const nc_status status = run_block(budget);
-    made_ += queue.size();
+    made_ += queue.size() + std::exchange(counted, 0);
     if (status != NC_OK) return status;
   }
   return NC_OK;

@@ -23,6 +23,7 @@ void PartInterpreter::create(const InterpreterConfig& config, ProgramStore* stor
   in_->parameters.set_filter_room(config.longest_filter_ms, config.system_index == 0);
   queue_ = &in_->queue;
   pools_ = {&in_->transforms, &in_->shapes, &in_->motion_settings, &in_->stroke_boxes};
+  stroke_counter_ = &in_->stroke_counter;
   in_vendor_function_ = &in_->in_vendor_function;
 }
 

@@ -22,6 +22,7 @@ namespace nc {
 
 struct Dialect;
 struct Interpreter;
+struct StrokeCounter;
 class SharedTables;
 
 struct InterpreterConfig {
@@ -88,6 +89,8 @@ class PartInterpreter {
     *front = queue_->front();
     return *front != nullptr ? NC_OK : make_more(budget, front);
   }
+  /// Strokes of holes that are made next are told to `counter` where it takes them; nullptr: to nobody.
+  void count_strokes(const StrokeCounter* counter) { *stroke_counter_ = counter; }
   void answer(const nc_world& world);
   /// A fixed cycle is under way: items of its block are still to be made.
   bool in_cycle() const;
@@ -238,6 +241,7 @@ class PartInterpreter {
   // Members of *in_ that are needed with every item.
   ItemQueue* queue_ = nullptr;
   MovePools pools_;
+  const StrokeCounter** stroke_counter_ = nullptr;
   const bool* in_vendor_function_ = nullptr;
 };
 

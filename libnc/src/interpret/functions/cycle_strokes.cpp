@@ -258,8 +258,9 @@ void emit_dwell(BlockContext& in, double seconds) {
   gate.value = seconds;
 }
 
-void make_stroke(BlockContext& in, const CycleStep& step) {
+void make_stroke(BlockContext& in, const CycleStep& step, CountedStrokes& counted) {
   if (goes_along(step.kind)) {  // most do, and a jump by a table is foreseen less often than this one
+    if (counted.take(step)) return;
     move_along(in, step);
     return check_tap_position(in, step);
   }
@@ -409,16 +410,18 @@ Execution begin_hole(BlockContext& in) {
   return Execution::later;
 }
 
-Execution continue_cycle(BlockContext& in) {
+namespace {
+
+Execution make_strokes(BlockContext& in, CountedStrokes& counted) {
   HolesOfBlock& holes = in.jobs.holes;
   while (in.queue_has_room()) {
     CycleStep step;
     if (next_stroke(holes.hole, holes.progress, &step)) {
       holes.inside = true;
       if ((step.flags & kStrokeTaps) != 0) note_tapping(in, true);
-      make_stroke(in, step);
+      make_stroke(in, step, counted);
       if (ends_tapping(step)) note_tapping(in, false);
-      if ((step.flags & kStrokeStops) != 0) in.emit_stop_point();
+      if ((step.flags & kStrokeStops) != 0 && !counted.take_stop_point()) in.emit_stop_point();
       holes.inside = false;
       continue;
     }
@@ -429,6 +432,15 @@ Execution continue_cycle(BlockContext& in) {
     return begin_hole(in);
   }
   return Execution::later;
+}
+
+}  // namespace
+
+Execution continue_cycle(BlockContext& in) {
+  CountedStrokes counted(in);
+  const Execution did = make_strokes(in, counted);
+  counted.end();
+  return did;
 }
 
 }  // namespace nc
