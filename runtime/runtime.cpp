@@ -187,7 +187,8 @@ void Runtime::save_new_taps() {
     nc_tap tap = NC_INIT(nc_tap);
     if (nc_tap_get(control_, api_system(s), &tap) != NC_OK) continue;
     nc_tap& told = tap_told_[s];
-    const bool same = tap.axis == told.axis && tap.entry == told.entry && tap.turns_per_mm == told.turns_per_mm && tap.speed == told.speed && tap.acceleration == told.acceleration;
+    const bool same = tap.axis == told.axis && tap.entry == told.entry && tap.turns_per_mm == told.turns_per_mm && tap.speed == told.speed && tap.acceleration == told.acceleration &&
+                      tap.spindles == told.spindles && tap.encoder == told.encoder;
     told = tap;
     if (!same && tap.axis != 0) keeper_->wake();
   }

@@ -2,6 +2,7 @@
 // Offsets and parameters as text. See tables.hpp.
 #include "runtime/retain/tables.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr char kHead[] = "nc tables 1";
 constexpr unsigned kColumns = 4, kLifeColumns = NC_LIFE_AUXILIARY + 1;
-constexpr unsigned kTapNumbers = 5;  // axis, entry, turns per mm, speed, acceleration
+constexpr unsigned kTapNumbers = 7;  // axis, entry, turns per mm, speed, acceleration, spindles, encoder
 constexpr unsigned kPlainSets = 6, kExtended = 100;  // indices as nc_work_offset_set() counts: G54 to G59 are 1 to 6, G54.1P<n> is 100 + n
 constexpr char kAllAxes = '-';
 
@@ -73,7 +74,8 @@ void read_taps(const nc_control* control, const nc_config& config, TableRows* ro
   for (unsigned s = 0; s < config.system_count; ++s) {
     nc_tap tap = NC_INIT(nc_tap);
     if (nc_tap_get(control, api_system(s), &tap) != NC_OK || tap.axis == 0) continue;
-    const double numbers[kTapNumbers] = {static_cast<double>(tap.axis), tap.entry, tap.turns_per_mm, tap.speed, tap.acceleration};
+    const double numbers[kTapNumbers] = {static_cast<double>(tap.axis), tap.entry, tap.turns_per_mm, tap.speed, tap.acceleration,
+                                         static_cast<double>(tap.spindles), static_cast<double>(tap.encoder)};
     for (unsigned n = 0; n < kTapNumbers; ++n) (*rows)["tap " + std::to_string(s) + " " + std::to_string(n)] = plain(numbers[n]);
   }
 }
@@ -141,6 +143,9 @@ void apply_taps(nc_control* control, const nc_config& config, const std::vector<
     tap.turns_per_mm = numbers[2];
     tap.speed = numbers[3];
     tap.acceleration = numbers[4];
+    const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
+    tap.spindles = byte(numbers[5]);  // an older file does not know them
+    tap.encoder = byte(numbers[6]);
     (void)nc_tap_set(control, api_system(s), &tap);  // one that this machine cannot have is dropped
   }
 }

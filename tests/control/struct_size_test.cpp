@@ -154,6 +154,11 @@ TEST(StructSize, ATapOfAnotherVersionIsTakenAndGiven) {
   EXPECT_EQ(nc_tap_get(c.control, 0, &tap), NC_OK);
   EXPECT_EQ(tap.axis, 1);
   EXPECT_EQ(tap.acceleration, 77) << "is not touched";
+  tap.struct_size = offsetof(nc_tap, spindles);
+  tap.spindles = 9;
+  EXPECT_EQ(nc_tap_get(c.control, 0, &tap), NC_OK);
+  EXPECT_EQ(tap.acceleration, 0);
+  EXPECT_EQ(tap.spindles, 9) << "is not touched";
 }
 
 TEST(StructSize, InitSetsIt) {

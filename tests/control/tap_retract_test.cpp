@@ -256,6 +256,8 @@ TEST_P(Retract, BehindAPowerCutItIsDrawnOut) {
   EXPECT_EQ(tap.axis, 3);
   EXPECT_NEAR(tap.entry, 2, 1e-9);
   EXPECT_NEAR(tap.turns_per_mm, -1 / kLead, 1e-9);
+  EXPECT_EQ(tap.spindles, 1);
+  EXPECT_EQ(tap.encoder, 1);
   const double stands = -4.2;
 
   Bench after(NC_DIALECT_M700, machine_that_taps(GetParam()));
@@ -321,6 +323,14 @@ TEST(TapData, OnlyATapThatCanBeIsTaken) {
       EXPECT_EQ(nc_tap_set(bench.control(), 0, &bad), NC_E_ARGUMENT) << value;
     }
   }
+  nc_tap other = tap;
+  other.spindles = other.encoder = 1;
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &other), NC_OK);
+  other.spindles = 2;
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &other), NC_E_ARGUMENT) << "there is one spindle";
+  other.spindles = 1;
+  other.encoder = 2;
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &other), NC_E_ARGUMENT);
   tap.axis = 4;
   EXPECT_EQ(nc_tap_set(bench.control(), 0, &tap), NC_E_ARGUMENT) << "there is no such axis";
   tap.axis = 0;

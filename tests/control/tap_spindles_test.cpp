@@ -111,6 +111,84 @@ TEST(TapSpindles, ATapThatAResetHasLeftInItsHoleKeepsItsSpindle) {
   EXPECT_EQ(drive.out.spindle_selected, 1) << "out of the hole it is let go";
 }
 
+/// Two spindles that turn as they are told, from where they stand when a tap takes them.
+class TwoSpindles {
+ public:
+  explicit TwoSpindles(Drive& drive) : drive_(drive) {}
+  void step() {
+    for (unsigned i = 0; i < 2; ++i) {
+      drive_.in.spindle[i] = {};
+      drive_.in.spindle[i].turns_valid = true;
+      drive_.in.spindle[i].turns = turns[i];
+    }
+    drive_.step(50);
+    for (unsigned i = 0; i < 2; ++i) {
+      const bool follows = (drive_.out.spindle_synchronous >> i & 1) != 0;
+      if (follows && !taken_[i]) from_[i] = turns[i] - drive_.out.spindle_turns;
+      if (follows) turns[i] = from_[i] + drive_.out.spindle_turns;
+      taken_[i] = follows;
+    }
+  }
+  double turns[2] = {0.3, 0.7};
+
+ private:
+  Drive& drive_;
+  bool taken_[2] = {};
+  double from_[2] = {};
+};
+
+// M700 10.6.1 (6): with the power the selection of the ladder goes, and another spindle would tear the tap. The one that has tapped draws it out. Where nobody knows
+// which that was, it is the one that is selected.
+TEST(TapSpindles, BehindAPowerCutTheOneOfTheTapDrawsItOut) {
+  const auto two = [](nc_config& c) {
+    machine_that_taps(false)(c);
+    c.system[0].spindle_count = 2;
+  };
+  Bench bench(NC_DIALECT_M700, two);
+  bench.at(0, 0, 10);
+  Drive drive(bench, "G84 Z-8. R2. S600 F1.5 ,R1\nG80\nM30");
+  TwoSpindles spindles(drive);
+  drive.in.spindle_select = 2;
+  nc_tap tap = NC_INIT(nc_tap);
+  for (unsigned n = 0; n < 20000 && !(drive.out.tapping && drive.out.command.v[2] < -3); ++n) {
+    drive.press_start();
+    spindles.step();
+  }
+  ASSERT_EQ(nc_tap_get(bench.control(), 0, &tap), NC_OK);
+  EXPECT_EQ(tap.spindles, 2);
+  EXPECT_EQ(tap.encoder, 2);
+  for (const bool known : {true, false}) {
+    Bench after(NC_DIALECT_M700, two);
+    after.at(0, 0, -4.2);
+    if (!known) tap.spindles = tap.encoder = 0;
+    ASSERT_EQ(nc_tap_set(after.control(), 0, &tap), NC_OK);
+    Drive out(after, "M30");
+    TwoSpindles turning(out);
+    out.in.spindle_select = 1;
+    for (unsigned n = 0; n < 100; ++n) turning.step();
+    ASSERT_TRUE(out.out.tap_retract_possible);
+    EXPECT_EQ(out.out.spindle_synchronous, known ? 2 : 1);
+    nc_tap kept = NC_INIT(nc_tap);
+    ASSERT_EQ(nc_tap_get(after.control(), 0, &kept), NC_OK);
+    EXPECT_EQ(kept.spindles, known ? 2 : 0) << "also over a second power cut";
+    const double before[2] = {turning.turns[0], turning.turns[1]};
+    const unsigned holds = known ? 1 : 0;
+    out.in.tap_retract = true;
+    double worst = 0;
+    for (unsigned n = 0; n < 3000; ++n) {
+      turning.step();
+      worst = std::max(worst, std::fabs(out.out.command.v[2] + 4.2 + kLead * (turning.turns[holds] - before[holds])));
+    }
+    EXPECT_NEAR(out.out.command.v[2], 2, 1e-3);
+    EXPECT_LT(worst, 0.1) << "mm beside the thread";
+    EXPECT_EQ(turning.turns[1 - holds], before[1 - holds]);
+    out.in.tap_retract = false;
+    out.in.manual[2] = {NC_MANUAL_JOG, 5, 0};
+    for (unsigned n = 0; n < 1000; ++n) turning.step();
+    EXPECT_EQ(out.out.spindle_selected, 1) << "out of the hole it is let go";
+  }
+}
+
 TEST(TapSpindles, ASpindleThatIsACAxisTurnsAsTheAxis) {  // 10.5
   Bench bench(NC_DIALECT_M700, [](nc_config& c) {
     machine_that_taps(false)(c);

@@ -2,9 +2,11 @@
 // Two spindles, of which the first is a C axis, too, on the simulated machine with a ladder program that selects them (M700 10.5, 10.6).
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "ladder_machine.hpp"
+#include "runtime/retain/tables.hpp"
 #include "runtime/signals/signal_table.hpp"
 
 namespace {
@@ -222,6 +224,60 @@ TEST_F(LadderSpindles, SwitchingTheServoOffDropsTheRestOfTheCommand) {  // M700 
 }
 
 // Without a ladder program no spindle is selected: M03 and S are for the first one.
+// M700 10.6.1 (6), 13.1.1: a synchronous tap by the second spindle. With the power the selection has gone, and the one that has tapped draws the tap out all the same.
+TEST_F(LadderSpindles, ATapKeepsItsSpindleOverAPowerCut) {
+  const std::string parameters = "[parameters]\n\"PREREAD_STOP_M1\" = 80\n\"3005\" = 3000\n\"3013\" = 600\n\"3017\" = 250\n";
+  constexpr double kLead = 1.5;
+  prepare(parameters);
+  const nc::rt::TableRows configured = nc::rt::read_tables(runtime->control(), config.nc);
+  const auto z = [&] { return out().command.v[2]; };
+  const auto angle = [&](unsigned number) { return machine->spindle_turns(0, number); };
+  start("M22\nG90 G0 Z10.\nG84 X0 Y0 Z-8. R2. S600 F1.5 P100 ,R1\nG80\nM30\n");
+  const double first = angle(0);
+  double began = 0, worst = 0;
+  ASSERT_GE(until([&] {
+              if (out().spindle_synchronous == 0) began = angle(1);
+              else if (out().tapping) worst = std::max(worst, std::fabs(2 - z() - kLead * (angle(1) - began)));
+              return out().tapping && z() < -3;
+            }),
+            0)
+      << alarm();
+  EXPECT_EQ(out().spindle_synchronous, 2);
+  EXPECT_LT(worst, 2e-3) << "mm";
+  EXPECT_EQ(angle(0), first) << "the other one stands";
+  const std::string kept = nc::rt::encode_changes(nc::rt::executed_tables(runtime->control(), config.nc), configured);
+
+  runtime.reset();
+  const std::string ladder = config.ladder.program;
+  std::string text = machine_toml() + parameters + "[ladder]\nprogram = \"own.il\"\n";
+  const std::string name = "name = \"Z\"\n";
+  text.insert(text.find(name) + name.size(), "start = -4.0\n");
+  config = nc::test::parse_or_fail(text);
+  config.ladder.program = ladder;
+  machine = std::make_unique<nc::hal::SimMachine>(config.sim, config.points);
+  std::vector<nc::rt::ConfigError> errors;
+  runtime = nc::rt::Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  ASSERT_TRUE(nc::rt::restore_changes(runtime->control(), config.nc, configured, kept));
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error)) << error;
+  steps(100);
+  ASSERT_TRUE(out().tap_retract_possible);
+  const double turned[2] = {angle(0), angle(1)};
+  worst = 0;
+  ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), nc::rt::Answer::kDone);
+  steps(100);
+  ASSERT_EQ(runtime->execute(nc::rt::CommandKind::kTapRetract, 0, 1), nc::rt::Answer::kDone);
+  ASSERT_GE(until([&] {
+              worst = std::max(worst, std::fabs(z() + 4 + kLead * (angle(1) - turned[1])));
+              return !out().tap_retract_possible && out().state == NC_STATE_IDLE;
+            }),
+            0);
+  EXPECT_LT(worst, 2e-3) << "mm beside the thread";
+  EXPECT_NEAR(angle(1) - turned[1], -6 / kLead, 0.01);
+  EXPECT_EQ(angle(0), turned[0]);
+}
+
 TEST_F(LadderSpindles, WithoutALadderTheFirstIsSelected) {
   std::string text = machine_toml();
   for (const char* table : {"[sim.spindle]\nforward = \"fwd1\"\nspeed = \"rpm1\"\n", "[sim.spindle2]\nforward = \"fwd2\"\nspeed = \"rpm2\"\n"})

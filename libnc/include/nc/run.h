@@ -418,6 +418,9 @@ typedef struct nc_tap {
   double turns_per_mm;      /**< revolutions of the spindle by the way of the axis, forward positive; not 0 */
   double speed;             /**< of the axis, mm/s, with the sign of the way into the hole; not 0 */
   double acceleration;      /**< highest of the axis that the spindle follows, mm/s^2; 0 = that of the axis */
+  uint8_t spindles;         /**< bit n: spindle n+1 turns with it (M700 10.6), whatever is selected meanwhile; 0 = not known: those that are selected as it is
+                                 drawn out */
+  uint8_t encoder;          /**< number (from 1) of the spindle whose angle its axis follows; 0 = none, or `spindles` is 0 */
 } nc_tap;
 
 /**
@@ -435,7 +438,7 @@ NC_API nc_status nc_tap_get(const nc_control* control, unsigned system, nc_tap* 
  * @param control the control
  * @param system part system, from 0
  * @param tap what was read
- * @return NC_OK; NC_E_ARGUMENT: no such part system or axis, or a number out of its range; NC_E_STATE: the scan runs already
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, axis or spindle, or a number out of its range; NC_E_STATE: the scan runs already
  */
 NC_API nc_status nc_tap_set(nc_control* control, unsigned system, const nc_tap* tap);
 

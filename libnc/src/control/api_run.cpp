@@ -199,6 +199,9 @@ nc_status nc_tap_set(nc_control* c, unsigned system, const nc_tap* given) {
   const bool moves = tap.turns_per_mm != 0 && sane(tap.turns_per_mm) && tap.speed != 0 && sane(tap.speed);
   const bool good = moves && sane(tap.entry) && tap.acceleration >= 0 && sane(tap.acceleration);
   if (tap.axis > c->config.system[system].axis_count || (tap.axis != 0 && !good)) return NC_E_ARGUMENT;
+  const nc_system_config& of = c->config.system[system];
+  const unsigned spindles = of.spindle_count == 0 ? 1u : of.spindle_count;
+  if (tap.spindles >> spindles != 0 || tap.encoder > spindles) return NC_E_ARGUMENT;
   return c->system[system].executor.set_tap(tap) ? NC_OK : NC_E_STATE;
 }
 

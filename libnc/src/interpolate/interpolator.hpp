@@ -212,6 +212,7 @@ class Interpolator {
   bool tap_bars() const NC_RT;
   void let_tap_go_outside(const nc_inputs& in) NC_RT;
   uint32_t tap_holds(const nc_inputs& in) const NC_RT;
+  uint8_t tap_spindles() const NC_RT;
   void turn_tap_spindle(const nc_inputs& in, nc_outputs& out) NC_RT;
   nc_tap tap() const NC_RT;
 
@@ -468,7 +469,8 @@ class Interpolator {
     bool stuck = false;              ///< held, and its spindle has not followed: it cannot be drawn out with it
     bool pressed = false;            ///< level of the signal for that
     bool locked = false;             ///< its axis stands in a machine lock, and so does its spindle
-    bool adopts = false;             ///< held, behind a power cut: its spindle is what that is as the tap begins to move
+    bool adopts = false;             ///< held, behind a power cut: its spindle is what that is as the tap begins to move, spindle or C axis
+    bool selects = false;            ///< ... and nobody knows which spindle it was: the one that is selected then
     int c_axis = -1;                 ///< its spindle is this axis
     unsigned axis = 0;               ///< that the tap moves
     double entry = 0;                ///< place of the axis where the tap has begun

@@ -33,9 +33,9 @@ bool Interpolator::spindle_reversed(const nc_inputs& in) const {
 void Interpolator::follow_spindles(const nc_inputs& in) {
   losing_ = false;
   // M700 10.6.1, relation (3) to (5): the selection is not to be changed while the spindle cuts a thread. What is in the work goes on.
-  // So does what a reset has left there until it is let go: another spindle's encoder would draw the axis out of the hole. Behind a power cut the selection is not known.
+  // So does what a reset or a power cut has left there until it is let go: another spindle's encoder would draw the axis out of the hole.
   const bool engaged = tapping_ != 0 || cutting_thread();
-  if (!engaged && (!tap_.held || tap_.adopts)) {
+  if (!engaged && (!tap_.held || tap_.selects)) {
     const unsigned count = spindles_.count();
     if (count > 1) spindles_.select(static_cast<uint8_t>(in.spindle_select & ((1u << count) - 1)));
     encoder_ = in.spindle_encoder == 0 ? spindles_.lead() + 1 : in.spindle_encoder <= count ? in.spindle_encoder : 0;

@@ -115,7 +115,7 @@ void Interpolator::hold_tap() {
 
 /// The next code for the spindle ends it, the next program, and motion by hand out of the hole.
 void Interpolator::release_tap() {
-  tap_.held = tap_.known = tap_.drawing = tap_.adopts = false;
+  tap_.held = tap_.known = tap_.drawing = tap_.adopts = tap_.selects = false;
   tap_follower_.end();
 }
 
@@ -233,6 +233,9 @@ uint32_t Interpolator::tap_holds(const nc_inputs& in) const {
   return ((1u << config_.axis_count) - 1) & ~(1u << tap_.axis);
 }
 
+/// Bit n: spindle n+1 turns with the tap. Where the selection has gone it is the one that was selected last.
+uint8_t Interpolator::tap_spindles() const { return spindles_.selected() != 0 ? spindles_.selected() : static_cast<uint8_t>(1u << spindles_.lead()); }
+
 /// The angle that belongs to the place on the path, or of the axis that is moved by hand.
 void Interpolator::turn_tap_spindle(const nc_inputs& in, nc_outputs& out) {
   out.tap_retract_possible = manual_allowed_ && tap_stands_in_hole();
@@ -244,7 +247,7 @@ void Interpolator::turn_tap_spindle(const nc_inputs& in, nc_outputs& out) {
   tap_.shown = turns;
   if ((!taps && !tap_.held) || tap_.c_axis >= 0) return;
   out.spindle_turns = turns;
-  out.spindle_synchronous = spindles_.selected() != 0 ? spindles_.selected() : static_cast<uint8_t>(1u << spindles_.lead());
+  out.spindle_synchronous = tap_spindles();
   for (unsigned n = 0; n < spindles_.count(); ++n)
     if ((out.spindle_synchronous >> n & 1) != 0) out.spindle_rev_min[n] = 60 * speed;
 }
@@ -257,6 +260,9 @@ nc_tap Interpolator::tap() const {
   tap.turns_per_mm = tap_.per_mm;
   tap.speed = tap_.speed;
   tap.acceleration = tap_.acceleration;
+  if (tap_.selects) return tap;
+  tap.spindles = tap_spindles();
+  tap.encoder = static_cast<uint8_t>(encoder_);
   return tap;
 }
 
@@ -270,6 +276,10 @@ void Interpolator::set_tap(const nc_tap& tap) {
   tap_.speed = tap.speed;
   tap_.acceleration = tap.acceleration;
   tap_.known = tap_.held = tap_.adopts = true;
+  tap_.selects = tap.spindles == 0;
+  if (tap_.selects) return;
+  spindles_.select(tap.spindles);
+  encoder_ = tap.encoder;
 }
 
 /// M700 10.6.1, relation (4), (5): in the tapping mode another selection is wanted, or its spindle as a C axis. The axes wait until that
