@@ -16,6 +16,7 @@ namespace {
 constexpr std::uint32_t kBudget = 256;
 constexpr auto kWritersEvery = std::chrono::seconds(1);
 constexpr std::size_t kMostNameBytes = 127;
+constexpr char kMdiWrites[] = "MDI blocks";
 constexpr unsigned kCallsPerStep = 8;
 constexpr std::chrono::milliseconds kLongRead{100};  // a search for a number goes through gigabytes of a program in one step
 
@@ -223,11 +224,23 @@ std::string Feeder::copy_of(Kept what) {
 // As it is shown, on one line.
 std::string Feeder::writer_name(unsigned system) const {
   const System& of = system_[system];
-  if (of.mdi) return "MDI blocks";
+  if (of.mdi || of.mdi_depth >= 0) return kMdiWrites;
   if (!of.selected) return "";
   std::string name = valid_utf8(share::file_name(nc_->program_name(of.file)));
   std::replace_if(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   return "program " + std::string(cut_utf8(name, kMostNameBytes));
+}
+
+// Who has executed something since the last look: blocks of MDI in a block stop (M700 12.4.4), and what they call, are not the program that they interrupt. It has written nothing since
+// the look at which they were loaded. Where it goes on before a look behind them both are named.
+void Feeder::note_running(unsigned s, const nc_event& event) {
+  System& of = system_[s];
+  const int was = of.mdi_depth, depth = event.source.depth;
+  if (of.mdi_file >= 0 && event.source.file == of.mdi_file) of.mdi_depth = depth;
+  else if (depth <= of.mdi_depth) of.mdi_depth = -1;
+  std::string& by = ran_.by[s];
+  if (by.empty() || (was < 0 && of.mdi_depth >= 0)) by = writer_name(s);
+  else if (was >= 0 && of.mdi_depth < 0) by += " or " + writer_name(s);
 }
 
 // What was executed since the last look has written what has changed since then. To be called before somebody else can write: what is read ahead of him is not executed yet.
@@ -425,6 +438,7 @@ Answer Feeder::interrupt_by_mdi(const Command& command) {
     text = std::move(mdi_text_);
     mdi_text_.clear();
   }
+  note_writers();
   System& system = system_[s];
   system.mdi_waits = 0;
   scan_->set_mdi_waits(s, 0);
@@ -435,17 +449,23 @@ Answer Feeder::interrupt_by_mdi(const Command& command) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) return Answer::kDone;  // it takes back what waits
   if (++mdi_texts_ == 0) ++mdi_texts_;
   system.mdi_waits = mdi_texts_;
+  system.mdi_file = nc_->program_of("MDI" + std::to_string(s));
   system.mdi_behind = out.serial;
   scan_->set_mdi_waits(s, system.mdi_waits);
   return Answer::kDone;
 }
 
-// Blocks of MDI do not wait any more when they have begun, when the program has been given up, or when the mode is AUTO again.
+// Blocks of MDI do not wait any more when they have begun, when the program has been given up, or when the mode is AUTO again. What they have written is noted where they stop, before the
+// program goes on.
 void Feeder::follow_mdi() {
   for (unsigned s = 0; s < systems_; ++s) {
     System& system = system_[s];
-    if (system.mdi_waits == 0) continue;
     const nc_outputs& out = seen_.system[s].nc;
+    if (system.mdi_depth >= 0 && out.state == NC_STATE_STOPPED && out.cause == NC_CAUSE_MDI_ENDED) {
+      note_writers();
+      system.mdi_file = system.mdi_depth = -1;
+    }
+    if (system.mdi_waits == 0) continue;
     const bool waits = out.state == NC_STATE_STOPPED && out.serial == system.mdi_behind;
     if (waits && seen_.mode != Mode::kAuto) continue;
     if (waits) (void)nc_->load_mdi(s, "", 0);
@@ -550,7 +570,7 @@ void Feeder::take_events() {
     std::uint64_t lost = 0;
     while (nc_->poll_event(s, &event, &lost) == NC_OK) {
       ++count;
-      if (writers_ != nullptr && ran_.by[s].empty()) ran_.by[s] = writer_name(s);
+      if (writers_ != nullptr) note_running(s, event);
       dropped = std::max(dropped, lost);
       if (sink_ != nullptr) sink_->executed(s, event);
       if (event.kind == NC_ITEM_ALARM) system_[s].alarmed = true;

@@ -198,6 +198,7 @@ class Feeder {
   void note_writers_of(const std::string& variables, const std::string& tables);
   std::string copy_of(Kept what);
   std::string writer_name(unsigned system) const;
+  void note_running(unsigned system, const nc_event& event);
   void follow_ladder();
   void follow_outputs();
   void complete_reset();
@@ -235,6 +236,8 @@ class Feeder {
     // Blocks of MDI that wait for a start in the block stop of the program: their number (0 = none), and the item that was executed last when they came.
     std::uint32_t mdi_waits = 0;
     std::uint64_t mdi_behind = 0;
+    int mdi_file = -1;   // index of their text in the store
+    int mdi_depth = -1;  // level of calls of theirs that is in execution; -1 = they are not
     // Nothing is selected any more; only the part program that was selected before is remembered.
     void clear() { *this = {false, false, 0, false, false, part, part_file, {}, 0, 0}; }
     void take_part(std::uint32_t number) { *this = {true, false, number, false, false, true, number, {}, 0, 0}; }

@@ -147,6 +147,32 @@ TEST_F(Writers, ADamagedFileIsToldAndIsNoAlarm) {
   EXPECT_TRUE(std::filesystem::exists(folder_ + "/changes.programs.damaged"));
 }
 
+// M700 12.4.4: blocks of MDI interrupt the program in a block stop, and a macro that they call is theirs, too.
+TEST_F(Writers, BlocksOfMdiInABlockStopAreNotTheProgram) {
+  ServiceClient client(path_);
+  write_program("O7001", "#504=4\nM99\n");
+  write_program("part.nc", "#501=1\nG10 L10 P3 R1.\nM0\n#502=2\nM30\n");
+  ASSERT_EQ(client.outcome("control.take"), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "auto"}}), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "part.nc"}}), "");
+  ASSERT_EQ(client.outcome("start"), "");
+  const auto stands = [](const Json& now) { return now["systems"][0]["state"] == "stopped"; };
+  until(&client, "status", stands);
+  ASSERT_EQ(client.outcome("mode", {{"mode", "mdi"}}), "");
+  ASSERT_EQ(client.outcome("mdi", {{"blocks", "#503=3\nG65 P7001\nG10 L10 P4 R2.\nG1 X1. F3000.\n"}}), "");
+  ASSERT_EQ(client.outcome("start"), "");
+  until(&client, "variables.list", [](const Json& now) { return now["variables"][0]["value"] == 4; }, {{"from", 504}, {"count", 1}});
+  until(&client, "status", stands);
+  ASSERT_EQ(client.outcome("mode", {{"mode", "auto"}}), "");
+  run_to_the_end(&client);
+  EXPECT_EQ(who_variable(&client, 501), "program part.nc");
+  EXPECT_EQ(who_variable(&client, 502), "program part.nc");
+  EXPECT_EQ(who_variable(&client, 503), "MDI blocks");
+  EXPECT_EQ(who_variable(&client, 504), "MDI blocks");
+  EXPECT_EQ(who_tool(&client, 3), "program part.nc");
+  EXPECT_EQ(who_tool(&client, 4), "MDI blocks");
+}
+
 std::string names_of_variables(unsigned count, const std::string& name) {
   std::string bytes;
   const auto put = [&bytes](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
