@@ -80,7 +80,7 @@ NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental,
 NC_PARTS(LifeInput, kind, flags, group, life, registered)
 NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
-NC_PARTS(MeetingFirst, kind, ccw, by_radius, choice, angle_deg, center, radius, start)
+NC_PARTS(MeetingFirst, kind, ccw, by_radius, by_hand, choice, angle_deg, center, radius, start)
 NC_PARTS(SpaceVector, on, turns, axis, v)
 NC_PARTS(InHand, called, selected, in_spindle, spindle_on, spindle_reverse)
 NC_PARTS(LeftByEnd, feed, motion, feed_mode, any)
@@ -117,7 +117,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, third_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, stitch, spline, held_point, stroke_box, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle)
   NC_FIELDS(ModalInProgram, comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
-            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space)
+            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space, by_hand)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamp, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle)
   NC_FIELDS(UntilOperatorReset, left_by_end)
@@ -345,9 +345,9 @@ TEST(StateGroups, AnInterruptProgramBeginsWithWhatIsInForce) {  // M700 13.12
   expect_kept([&](State& state) { begin_interrupt_program(state, place); }, all, {"repeat", "interrupt_moved", "parameter_input", "life_input"});
 }
 
-// Exceptions, tested below: `modal` holds the M code that was given out; `moves_since_comp_off` and `spline_way` change with a move of the interrupt
+// Exceptions, tested below: `modal` holds the M code that was given out; `moves_since_comp_off`, `spline_way` and `by_hand` change with a move of the interrupt
 // program.
-const std::set<std::string> kReturnExceptions = {"modal", "moves_since_comp_off", "spline_way"};
+const std::set<std::string> kReturnExceptions = {"modal", "moves_since_comp_off", "spline_way", "by_hand"};
 
 TEST(StateGroups, AnInterruptGivesTheModesBackAndLeavesTheRest) {  // M700 13.12
   for (const bool inside_block : {false, true}) {
@@ -377,7 +377,7 @@ TEST(StateGroups, WhatAnInterruptGivesBackInItsOwnWay) {
   before.modal.m = 8, now.modal.m = 9;
   before.modal.tool = 1, now.modal.tool = 2;
   before.moves_since_comp_off = 0, now.moves_since_comp_off = 0;
-  before.spline_way.joined = true;
+  before.spline_way.joined = before.by_hand = true;
   before.map.frozen = 1;
   for (unsigned i = 0; i < kMaxAxes; ++i) before.machine[i] = 1, now.machine[i] = 2;
   State behind = now;
@@ -386,6 +386,7 @@ TEST(StateGroups, WhatAnInterruptGivesBackInItsOwnWay) {
   EXPECT_EQ(behind.modal.tool, 1u);
   EXPECT_EQ(behind.moves_since_comp_off, 0u);
   EXPECT_TRUE(behind.spline_way.joined);
+  EXPECT_TRUE(behind.by_hand);
   EXPECT_EQ(behind.machine[0], 1);  // the axis of G07 is beside where the program is
   for (unsigned i = 1; i < kMaxAxes; ++i) EXPECT_EQ(behind.machine[i], 2);
 
@@ -394,6 +395,7 @@ TEST(StateGroups, WhatAnInterruptGivesBackInItsOwnWay) {
   behind = now;
   return_from_interrupt(behind, before, false);
   EXPECT_FALSE(behind.spline_way.joined);
+  EXPECT_FALSE(behind.by_hand);
   EXPECT_EQ(behind.moves_since_comp_off, 1u);
 }
 

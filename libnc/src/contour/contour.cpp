@@ -20,7 +20,22 @@ bool is_cut(const Move& m) { return is_line(m) || (m.circular && m.shape == 0 &&
 bool meets_later(const Move& m) { return m.corner == Corner::meet || m.corner == Corner::meet_by_radius; }
 
 /// A command of radius compensation without a movement (offset/offset.hpp).
-bool without_length(const Move& m) { return !m.circular && m.shape == 0 && m.corner == Corner::none && m.start == m.end; }
+bool without_length(const Move& m) { return !m.circular && m.shape == 0 && m.corner == Corner::none && m.start == m.end && !stands_beside(m.comp); }
+
+/// A line as it is programmed, while this lives: its corner is that of the programmed lines, also where the axes were moved by hand in front of it and a compensated line leads back (M700 12.4.4).
+class AsProgrammed {
+ public:
+  explicit AsProgrammed(Move& line) : line_(line), start_(line.start) {
+    for (unsigned i = 0; i < 2; ++i) line.start[line.comp.axis[i]] -= line.comp.by_hand[i];
+  }
+  ~AsProgrammed() { line_.start = start_; }
+  AsProgrammed(const AsProgrammed&) = delete;
+  AsProgrammed& operator=(const AsProgrammed&) = delete;
+
+ private:
+  Move& line_;
+  AxisVec start_;
+};
 
 /// Do rotary axes turn the tool, along which its length is compensated, between the ends of these moves? A piece that is cut off ends on the way (M700 12.3).
 bool turns_tool(const Move& first, const Move& next, uint32_t rotary, unsigned axis_count) {
@@ -95,6 +110,7 @@ void ContourStage::push_move(const Item& item, ContourRule rule) {
   behind_mark_ = false;
   append(item).vacant = true;
   if (meets_later(move) || move.circular) return;
+  const AsProgrammed programmed(move);
   if (corner_travel(move, move, rotary_, axis_count_) < move.corner_mm - kCornerSlack_mm) fail(Condition::corner_short, item.source, move.corner_mm);
 }
 
@@ -113,7 +129,11 @@ void ContourStage::settle(const Item& next, ContourRule rule) {
   if (is_line(next.move) && meets_later(next.move)) return fail(Condition::corner_option, next.source, amount);
   if (turns_tool(line, next.move, rotary_, axis_count_)) return fail(Condition::tool_axis_code, first.item.source, amount);
   CornerCut cut;
-  const Condition bad = arcs ? cut_arc_corner(line, next.move, axis_count_, &cut) : cut_corner(line, next.move, rotary_, axis_count_, &cut);
+  Condition bad = Condition::none;
+  {
+    const AsProgrammed programmed(line);
+    bad = arcs ? cut_arc_corner(line, next.move, axis_count_, &cut) : cut_corner(line, next.move, rotary_, axis_count_, &cut);
+  }
   const bool at_next = bad == Condition::corner_next_short || bad == Condition::corner_arc;
   if (bad != Condition::none) return fail(bad, at_next ? next.source : first.item.source, amount);
   pending_ = false;
@@ -137,6 +157,7 @@ void ContourStage::settle(const Item& next, ContourRule rule) {
   corner.connecting = true;
   // What is commanded of the vectors at the start of the block has been done, and a stop is at the end of the block.
   corner.comp.has_vector = corner.comp.hold_vector = corner.comp.corner_arc = corner.comp.cancel_vector = false;
+  corner.comp.by_hand[0] = corner.comp.by_hand[1] = 0;  // the way from where the axes were moved to ends in front of the cut
   line.exact_stop = false;
   line.rule.slow_zone = 0;
   if (!cut.round) return;

@@ -17,6 +17,7 @@
 //   system_variables.cpp  #1000 and up
 #pragma once
 
+#include "interpret/by_hand.hpp"
 #include "interpret/context.hpp"
 #include "interpret/lifetimes.hpp"
 #include "interpret/part_interpreter.hpp"
@@ -86,6 +87,7 @@ struct Interpreter : BlockContext {
   void move_to(const AxisVec& machine, const AxisVec& beside) {
     state.machine = machine;
     displace_compensated(beside);
+    note_way_by_hand(*this, beside);
     moved_by_hand();
     keep_state();
   }

@@ -83,7 +83,10 @@ void return_from_interrupt(State& state, const StateValues& before, bool inside_
   }
   state.modal.m = m;  // 13.12 restores modal information; the last M code that was given out is not modal
   if (moves_since_comp_off != 0) state.moves_since_comp_off = 1;  // a move of the interrupt program counts, too (P112)
-  if (state.interrupt_moved) state.spline_way = {};  // the curve begins again where the axes are
+  if (state.interrupt_moved) {
+    state.spline_way = {};  // the curve begins again where the axes are
+    state.by_hand = false;  // and so does what counts from the end of the block before
+  }
 }
 
 void go_on_behind_interrupt(State& state, const StateValues& before) {

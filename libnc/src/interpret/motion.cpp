@@ -8,6 +8,7 @@
 #include "base/same_place.hpp"
 #include "base/units.hpp"
 #include "frame/rotary.hpp"
+#include "interpret/by_hand.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
@@ -93,6 +94,23 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
   }
 }
 
+/// M700 12.4.4 (2): an absolute word leads back to the programmed path from beside it.
+bool leads_back(const BlockInHand& in) {
+  const Compensation& comp = in.state.comp;
+  const uint32_t absolute = in.words.target.axes() & ~in.words.target.incremental();
+  for (unsigned i = 0; i < 2; ++i)
+    if ((absolute >> comp.axis[i] & 1) != 0 && std::fabs(comp.by_hand[i]) > kReached) return true;
+  return false;
+}
+
+/// A line leads to where the axes stand already, and is none. Where it was the hand that has led them there, the program has come to its end all the same; under radius compensation it is a block
+/// of the contour, whose corner has to be made: false.
+bool stays_by_hand(BlockInHand& in, const AxisVec& place) {
+  if (stands_beside(in.state.comp) && leads_back(in)) return false;
+  if (in.state.by_hand) end_way_by_hand(in, place, place);
+  return true;
+}
+
 /// Radius compensation starts and ends with a movement in its plane, not with one across it: until then the vector is not made, or still there. Where the
 /// code alone waits, so does a start behind a movement across the plane.
 [[gnu::cold]] void note_side(BlockContext& in, const AxisVec& start, const AxisVec& target, Move& move) {
@@ -110,6 +128,7 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
 [[gnu::always_inline]] inline Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target) {
   Move& move = in.emit_move(start, target);
   if (stands_beside(in.state.comp)) [[unlikely]] lead_back_to_path(in, move);
+  if (in.state.by_hand) [[unlikely]] end_way_by_hand(in, start, target);
   if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
   move.inch = in.state.modal.is(Function::inch);
@@ -412,7 +431,7 @@ template <unsigned kAxes>
 void make_shifted_line(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   const Shifted<kAxes> from(in);
   const AxisVec end = choose<kAxes>(commanded, target, from.start);  // an axis that is not named stays where it is
-  if (same_place(from.start, end, in.axis_count) && !(style.transparent && stands_off(in, commanded))) return;
+  if (same_place(from.start, end, in.axis_count) && !(style.transparent && stands_off(in, commanded)) && stays_by_hand(in, from.start)) return;
   Move& move = begin_moved(in, from, end);
   set_style(in, move, style);
   if (style.transparent) [[unlikely]] take_vectors_away(in, move, commanded);
@@ -686,18 +705,10 @@ static double displaced_apart(const InForce& in, const MoveFrame& frame, unsigne
   return circle_apart(radius(frame.start, in.state.moved_space), radius(frame.end, end));
 }
 
-/// M700 12.4.4 (2): an absolute word leads back to the programmed path from beside it, so an arc in absolute words would be another one than is programmed, by R no less than about a centre.
-static bool would_be_another_arc(const BlockInHand& in) {
-  const Compensation& comp = in.state.comp;
-  const uint32_t absolute = in.words.target.axes() & ~in.words.target.incremental();
-  for (unsigned i = 0; i < 2; ++i)
-    if ((absolute >> comp.axis[i] & 1) != 0 && std::fabs(comp.by_hand[i]) > kReached) return true;
-  return false;
-}
-
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
-  if (stands_beside(in.state.comp) && would_be_another_arc(in)) [[unlikely]] return in.raise_mode(Condition::arc_by_hand, Mode::motion);
+  // M700 12.4.4 (2): an arc in absolute words would be another one than is programmed, by R no less than about a centre.
+  if (stands_beside(in.state.comp) && leads_back(in)) [[unlikely]] return in.raise_mode(Condition::arc_by_hand, Mode::motion);
   if (in.state.length_changed_by_handle) [[unlikely]] move_nowhere(in, true);  // M700 12.3: both ends of an arc lie on a circle, so the new vector is gone to first
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));

@@ -15,7 +15,7 @@ bool plain_modes(const Interpreter& in) {
   const ModalState& m = s.modal;
   return s.special == 0 && s.modal_call == 0 && !s.mapped && !s.parameter_input && s.life_input.kind == LifeInput::Kind::none && s.meeting.kind == MeetingFirst::Kind::none &&
          s.fine_mode == FineMode::none && !s.tool_angles_old && m.is(Function::absolute) &&
-         m.is(Function::metric) && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting && !in.settings.corners_always && !stands_beside(s.comp) &&
+         m.is(Function::metric) && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting && !in.settings.corners_always && !stands_beside(s.comp) && !s.by_hand &&
          (!in.dialect->rules.compensation.begins_beside_start || s.comp.side == 0 || s.moved_side != 0) &&
          (s.unit_used || !in.dialect->rules.block.unit_is_of_program);
 }

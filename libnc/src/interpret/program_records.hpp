@@ -10,7 +10,7 @@
 //   MapRecordsLife          yes       RETURNS       yes          -            -             -
 //   MachineRecordsLife      yes          -          yes         yes          yes            -
 //
-// Whether a figure or a modal call is in force is told by its call frame (CallFrame), whether an interrupt, a map or a mirror is, by the state.
+// Whether a figure or a modal call is in force is told by its call frame (CallFrame), whether an interrupt, a map, a mirror or a way by hand is, by the state.
 // The intermediate points of G28 end with the program where the family says so (ReferenceRules::forgets_with_program). What has to outlast power off
 // is stored and given back by the host (nc/control.h).
 #pragma once
@@ -83,6 +83,13 @@ struct ProgramMaps {
 struct SwitchMirror {
   AxisVec center;
   bool operator==(const SwitchMirror&) const = default;
+};
+
+/// How far axes stand beside the programmed end of the block before, because they were moved by hand in a block stop with manual absolute on (M700 12.4.4). An
+/// absolute word of an axis ends it (interpret/by_hand.hpp).
+struct WayByHand {
+  AxisVec beside;
+  bool operator==(const WayByHand&) const = default;
 };
 
 /// What a macro has selected to read next; 0 = nothing yet.
@@ -169,6 +176,7 @@ struct ProgramRecordsLife {
   SwitchMirror switch_mirror;
   Selection selection;
   WorkTurns work_turn;
+  WayByHand way_by_hand;
   bool operator==(const ProgramRecordsLife&) const = default;
 };
 

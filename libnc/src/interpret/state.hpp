@@ -124,6 +124,7 @@ struct MeetingFirst {
   enum class Kind : uint8_t { none, line, arc } kind = Kind::none;
   bool ccw = false;
   bool by_radius = false;   ///< an arc: of `radius`, else about `center`
+  bool by_hand = false;     ///< it begins where the axes were moved by hand, beside `start`
   int8_t choice = -1;       ///< H: 0 the meeting point with the shorter line, 1 the longer; -1 = not said
   double angle_deg = 0;     ///< of a line
   double center[2] = {0, 0};  ///< in the plane, programmed coordinates
@@ -263,6 +264,7 @@ struct ModalInProgram {
   uint32_t space_number = 0;    ///< the D of its code
   LifeInput life_input;
   SpaceVector moved_space;      ///< Move::space of the last movement, without a vector where it had taken it away
+  bool by_hand = false;         ///< the axes stand beside the programmed end of the block before by ProgramRecords::way_by_hand (M700 12.4.4)
 };
 
 /// Belongs to the run of one program, or of one MDI text, with all programs that it calls. These are not modes, so they are not restored after an

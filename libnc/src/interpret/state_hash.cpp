@@ -90,8 +90,8 @@ class Hash {
     add(joined, moved, back);
   }
   void add_one(const MeetingFirst& meeting) {
-    const auto& [kind, ccw, by_radius, choice, angle_deg, center, radius, start] = meeting;
-    add(kind, ccw, by_radius, choice, angle_deg, center, radius, start);
+    const auto& [kind, ccw, by_radius, by_hand, choice, angle_deg, center, radius, start] = meeting;
+    add(kind, ccw, by_radius, by_hand, choice, angle_deg, center, radius, start);
   }
   void add_one(const SpaceVector& space) {
     const auto& [on, turns, axis, v] = space;
@@ -172,6 +172,10 @@ class Hash {
     const auto& [center] = mirror;
     add(center);
   }
+  void add_one(const WayByHand& way) {
+    const auto& [beside] = way;
+    add(beside);
+  }
   void add_one(const ReferenceMidpoints& midpoints) {
     const auto& [axis] = midpoints;
     add(axis);
@@ -237,9 +241,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror,
-                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space] = static_cast<const ModalInProgram&>(values);
+                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space, by_hand] = static_cast<const ModalInProgram&>(values);
     hash.add(comp, cycle, motion_off, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
-             vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space);
+             vacant_feed, vacant_feed_line, spline_way, meeting, space, space_mirror, space_number, life_input, moved_space, by_hand);
     // Inside a curve that is given block by block its points have numbers of their own: two such states count as different.
     if (arc_step != ArcStep::none) hash.add(arc_points);
     if (nurbs.active()) hash.add(nurbs);
@@ -298,8 +302,8 @@ void add_parameters(Hash& hash, const Parameters& parameters) {
 
 void add_records(Hash& hash, const ProgramRecords& records) {
   {
-    const auto& [modal_call, places, figure, interrupt, switch_mirror, selection, work_turn] = static_cast<const ProgramRecordsLife&>(records);
-    hash.add(modal_call, places, figure, interrupt, switch_mirror, selection, work_turn);
+    const auto& [modal_call, places, figure, interrupt, switch_mirror, selection, work_turn, way_by_hand] = static_cast<const ProgramRecordsLife&>(records);
+    hash.add(modal_call, places, figure, interrupt, switch_mirror, selection, work_turn, way_by_hand);
   }
   {
     const auto& [maps] = static_cast<const MapRecordsLife&>(records);

@@ -167,8 +167,9 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
     *end = {(turning / r1) * left_of(finish - center), turning / r1};
     return true;
   }
-  if (!longer_than(finish - start, kNoLength)) return false;
   const Vec2 programmed = finish - start + Vec2{move.comp.by_hand[0], move.comp.by_hand[1]};
+  const bool led_there = stands_beside(move.comp) && longer_than(programmed, kNoLength);  // by hand
+  if (!longer_than(finish - start, kNoLength) && !led_there) return false;
   const double length = norm(programmed);
   *begin = *end = {length > kNoLength ? (1 / length) * programmed : unit(finish - start), 0};
   return true;

@@ -35,8 +35,9 @@ double rise(const Move& move) {
   return move.end[3 - h - v] - move.start[3 - h - v];
 }
 
+// Where the axes were moved by hand to the end of a line, it is a block of the contour all the same.
 bool without_length(const Move& move) {
-  return !move.circular && move.start == move.end;
+  return !move.circular && move.start == move.end && !stands_beside(move.comp);
 }
 
 // A block that only asks for something of the compensation: nothing of it goes to the machine.
@@ -324,7 +325,7 @@ void OffsetStage::intake_move(Held* held) {
   }
   const bool commands = without_length(move) || move.comp.has_vector || move.comp.corner_arc;
   const Vec2 way = plane_delta(move);
-  const bool is_short = dot(way, way) <= 2 * kNoDirection_mm * kNoDirection_mm;
+  const bool is_short = dot(way, way) <= 2 * kNoDirection_mm * kNoDirection_mm && !stands_beside(move.comp);
   if (!moves || (is_short && !starts && !commands && intake_without_direction(held, offset_before, &begin, &end))) {
     side_changed_ = side_changed_ != other_side;
     if (!moves) return commands && !move.comp.transparent ? intake_command(held) : intake_carried(held);

@@ -2,6 +2,7 @@
 // Work coordinate systems G54-G59, G54.1; local system G52; coordinate system setting G92, preset G92.1.
 #include <algorithm>
 
+#include "interpret/by_hand.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/program_map.hpp"
 #include "interpret/work_rotation.hpp"
@@ -131,6 +132,7 @@ Execution do_coordinate_set(BlockContext& in) {
   }
   mirror_from_here(in, w.target.axes(), here);
   keep_rotation_center(in, zero_before);
+  forget_way_by_hand(in, w.target.axes());  // the value is of the place where the axis stands
   return Execution::done;
 }
 

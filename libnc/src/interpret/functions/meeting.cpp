@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpret/by_hand.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
@@ -22,7 +23,7 @@ using Kind = MeetingFirst::Kind;
 struct InPlane {
   PlaneAxes axes;
   unsigned h = 0, v = 0;
-  PlanePoint at;       ///< where the block starts
+  PlanePoint at;       ///< where the block starts by the program, also where the axes have been moved by hand (12.4.4)
   bool exists() const { return axes.h >= 0 && axes.v >= 0; }
   uint32_t bits() const { return exists() ? 1u << h | 1u << v : 0; }
 };
@@ -34,8 +35,8 @@ InPlane in_plane(const BlockInHand& in) {
   if (!plane.exists()) return plane;
   plane.h = static_cast<unsigned>(plane.axes.h);
   plane.v = static_cast<unsigned>(plane.axes.v);
-  const AxisVec at = programmed_position(in);
-  plane.at = {at[plane.h], at[plane.v]};
+  const AxisVec at = programmed_position(in), beside = way_by_hand(in);
+  plane.at = {at[plane.h] - beside[plane.h], at[plane.v] - beside[plane.v]};
   return plane;
 }
 
@@ -158,8 +159,12 @@ Execution begin_with_line(BlockContext& in) {
   AxisVec end = programmed_position(in);
   PlanePoint u;
   direction_of(first.angle_deg, &u.h, &u.v);
-  end[plane.h] += u.h;
-  end[plane.v] += u.v;
+  end[plane.h] = plane.at.h + u.h;
+  end[plane.v] = plane.at.v + u.v;
+  if (in.state.by_hand) {  // the point is a place, to which the axes are led back
+    in.words.target.set(plane.h, TargetKind::absolute, end[plane.h]);
+    in.words.target.set(plane.v, TargetKind::absolute, end[plane.v]);
+  }
   const AxisVec before = in.state.machine;
   LinearStyle style = cutting_style(in);
   style.corner = Corner::meet;
@@ -221,6 +226,8 @@ Execution begin_with_arc(BlockContext& in, bool by_center) {
   first.center[1] = circle.center.v;
   first.start[0] = plane.at.h;
   first.start[1] = plane.at.v;
+  const AxisVec beside = way_by_hand(in);
+  first.by_hand = beside[plane.h] != 0 || beside[plane.v] != 0;
   in.state.meeting = first;
   return Execution::done;
 }
@@ -296,11 +303,12 @@ Meeting solve(const InForce& in, const MeetingFirst& first, const Second& second
   return first.by_radius ? touch_line_and_circle(second.slope, circle, true) : meet_line_and_circle(second.slope, circle, first.choice == 1);
 }
 
-/// The axes of the plane stand where the blocks meet.
+/// The axes of the plane stand where the blocks meet, or beside it where they were moved by hand there.
 void go_to_meeting(BlockInHand& in, const InPlane& plane, PlanePoint at) {
   AxisVec point = programmed_position(in);
-  point[plane.h] = at.h;
-  point[plane.v] = at.v;
+  const AxisVec beside = way_by_hand(in);
+  point[plane.h] = at.h + beside[plane.h];
+  point[plane.v] = at.v + beside[plane.v];
   if (program_mapped(in)) point = from_program(in, point);
   const AxisVec& zero = in.zero();
   for (const unsigned i : {plane.h, plane.v}) in.state.machine[i] = point[i] + zero[i] + in.state.applied[i];
@@ -369,6 +377,8 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first, bool by_cente
   const bool pair = (second.line || second.arc) && !both_by_radius && (by_center || !(first.kind == Kind::arc && second.arc && stands_by_itself(in, first, second, true)));
   if (!pair) return needed ? in.raise(Condition::geometric_address) : Execution::later;
   if (second.incremental) return in.raise(Condition::geometric_incremental);
+  // An arc that begins beside its programmed start is not the one that meets the second block (12.4.4).
+  if (first.kind == Kind::arc && first.by_hand) return in.raise_mode(Condition::arc_by_hand, Mode::motion);
   if (!choice_of_block(in, &second.choice)) return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
   Execution did = check_second_words(in);
   if (did == Execution::done && second.line) did = check_choice_beside_line(in);
@@ -444,7 +454,9 @@ Execution take_line_angle(BlockInHand& in) {
   const double end = way * across / along, last = in.state.modal.is(Function::inch) ? in.settings.last_inch : in.settings.last_mm;
   const bool arrives = along != 0 && std::fabs(end) <= last && std::fabs((has_h ? plane.at.v : plane.at.h) + end) <= last;  // within the range of coordinates (2.1)
   if (!arrives) return in.raise_axis(Condition::geometric_address, given, w.target[given]);
-  w.target.set(other, TargetKind::incremental, end);
+  // With an increment the way by hand stays. A line that is led to a place is led back to its programmed end (12.4.4).
+  const bool leads_back = in.state.by_hand && !w.target.counts_on(given);
+  w.target.set(other, leads_back ? TargetKind::absolute : TargetKind::incremental, leads_back ? (has_h ? plane.at.v : plane.at.h) + end : end);
   return Execution::done;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/same_place.hpp"
 #include "base/units.hpp"
+#include "interpret/by_hand.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
@@ -30,7 +31,7 @@ Execution amount_of(BlockInHand& in, double* amount) {
 /// A length with its sign, made longer by `by`. A length that is shortened below 0 changes its direction (12.6, precaution (2)).
 double longer(double length, double by) { return length + (std::signbit(length) ? -by : by); }
 
-/// Makes the way of each axis of the block longer, and puts it into the block as an incremental word.
+/// Makes the way of each axis of the block longer, and puts it into the block as an incremental word; where the axis was moved by hand, as an absolute one.
 void lengthen_ways(BlockInHand& in, double amount, bool arc) {
   Command& w = in.words;
   const bool mapped = program_mapped(in);
@@ -38,14 +39,22 @@ void lengthen_ways(BlockInHand& in, double amount, bool arc) {
   AxisVec target = target_of_words(in);
   if (mapped) target = to_program(in, target);
   const double ways = is_twice(w.one_shot->function) ? 2 * amount : amount;
+  const AxisVec by_hand = arc ? AxisVec{} : way_by_hand(in);
   for (uint32_t left = w.target.axes(); left != 0; left &= left - 1) {
     const unsigned i = first_of(left);
     const bool by_increment = w.target.counts_on(i);
-    const double way = by_increment ? w.target[i] : target[i] - position[i];
+    // "From the end point of the preceding block": who has moved the axis by hand past the place has not changed its side (12.4.4).
+    const double from = (in.rotary >> i & 1) != 0 ? position[i] : position[i] - by_hand[i];
+    const double way = by_increment ? w.target[i] : target[i] - from;
     // Precaution (3): the sign of an incremental 0 counts; an absolute word without a way stays, and so does the axis on which a half circle ends where it
     // began. A way between two coordinates is none up to what adding them up has rounded.
     const bool stays = by_increment ? arc && way == 0 : std::fabs(way) <= kAddingUp;
-    w.target.set(i, TargetKind::incremental, stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i))));
+    const double goes = stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i)));
+    if (by_hand[i] != 0 && !by_increment && (in.rotary >> i & 1) == 0) {
+      w.target.set(i, TargetKind::absolute, from + goes);
+    } else {
+      w.target.set(i, TargetKind::incremental, goes);
+    }
   }
 }
 
