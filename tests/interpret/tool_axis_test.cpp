@@ -46,6 +46,14 @@ TEST(LengthAlongTool, AloneItMovesAtOnceAndSoDoesItsEnd) {
             (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 51 0 0 90 0", "rapid 1 0 0 90 0", "rapid 2 0 0 90 0"}));
 }
 
+// In three-dimensional compensation as well: the vector of the radius stays, that of the length goes.
+TEST(LengthAlongTool, AloneInSpaceCompensationItMovesAtOnceAndSoDoesItsEnd) {
+  for (const char* end : {"G49", "G43.1 H0", "G43 H0"})
+    EXPECT_EQ(path_of(std::string("G0 B90.\nG41 D2 I0 J3. K4.\nG43.1 H1\nX1.\n") + end + "\nX2.\nM30"),
+              (Path{"rapid 0 0 0 90 0", "rapid 0 12 16 90 0", "rapid 50 12 16 90 0", "rapid 51 12 16 90 0", "rapid 1 12 16 90 0", "rapid 2 12 16 90 0"}))
+        << end;
+}
+
 // In the contour of a tool radius as well, and not on the way of the next cut.
 TEST(LengthAlongTool, AloneInRadiusCompensationItMovesAtOnceAndSoDoesItsEnd) {
   const char* const begin = "G90 G17 G1 F100\nG43.1 H1\nG41 D2 X30.\nX60.\n";

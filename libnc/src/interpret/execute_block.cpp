@@ -553,6 +553,7 @@ Execution execute_read_words(Interpreter& in) {
   const auto has_vector_in_space = [&in] { return in.state.space.on || in.state.tool_length != 0; };
   const bool had_one = has_vector_in_space();
   const SpaceVector space_before = in.state.space;
+  const double length_before = in.state.tool_length;
   did = apply_systems(in);
   in.words.vector_in_space = had_one || has_vector_in_space();
   if (did != Execution::done) return did;
@@ -570,7 +571,7 @@ Execution execute_read_words(Interpreter& in) {
   if (in.dialect->rules.compensation.begins_beside_start) did = go_beside_start(in);
   if (did != Execution::done) return did;
   // Another number or code alone only counts from the next I J K on (M700 12.5 (4), (5)): it moves nothing and takes no feed.
-  const bool keeps_vector = space_before.on && in.state.space == space_before && in.state.tool_length == 0 && !gives_space_vector(in);
+  const bool keeps_vector = space_before.on && in.state.space == space_before && in.state.tool_length == 0 && length_before == 0 && !gives_space_vector(in);
   const bool may_turn = in.state.space.on && in.state.mapped;
   if ((!w.comp_command || keeps_vector) && !may_turn) return finish(in, execute_motion(in));
   const bool by_command = w.comp_command && !keeps_vector;
